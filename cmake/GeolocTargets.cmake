@@ -1,0 +1,62 @@
+# How every target of the project is made: one place for the language level, warnings, sanitizers and folders.
+
+find_program(GEOLOC_CCACHE ccache)
+if(GEOLOC_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${GEOLOC_CCACHE}")
+endif()
+
+# Flags are for our own code only, so they are never part of an exported interface.
+function(geoloc_set_flags target)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  if(GEOLOC_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(GEOLOC_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${GEOLOC_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PRIVATE -fsanitize=${GEOLOC_SANITIZE})
+  endif()
+  if(GEOLOC_BUILD_FUZZERS)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+    target_link_options(${target} PRIVATE -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# geoloc_add_library(geoloc_io_mavlink ALIAS io_mavlink SOURCES a.cpp … PUBLIC libs… PRIVATE libs…)
+# makes the static library and its name geoloc::io_mavlink.
+function(geoloc_add_library target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "ALIAS" "SOURCES;PUBLIC;PRIVATE")
+  add_library(${target} STATIC ${arg_SOURCES})
+  add_library(geoloc::${arg_ALIAS} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_ALIAS})
+  geoloc_set_flags(${target})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+endfunction()
+
+# geoloc_add_program(geoloc_sim SOURCES … LIBRARIES …): a program in <build>/bin.
+function(geoloc_add_program target)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
+  add_executable(${target} ${arg_SOURCES})
+  geoloc_set_flags(${target})
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+endfunction()
+
+# geoloc_add_test(tracking SOURCES a_test.cpp … LIBRARIES …): one GoogleTest program a module, each case a ctest test.
+function(geoloc_add_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBRARIES")
+  set(target ${name}_test)
+  add_executable(${target} ${arg_SOURCES})
+  geoloc_set_flags(${target})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_compile_definitions(${target} PRIVATE
+    GEOLOC_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data" GEOLOC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  gtest_discover_tests(${target} TEST_PREFIX "${name}." PROPERTIES TIMEOUT ${arg_TIMEOUT} DISCOVERY_TIMEOUT 60)
+endfunction()

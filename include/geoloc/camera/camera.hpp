@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/geometry/rigid3.hpp"
+
+namespace geoloc {
+
+/// Pinhole with Brown distortion, in OpenCV's conventions: pixel centres at integers, distortion k1 k2 p1 p2 k3.
+struct CameraIntrinsics {
+  int width_px = 1280;
+  int height_px = 720;
+  double fx_px = 914.01;
+  double fy_px = 914.01;
+  double cx_px = 639.5;
+  double cy_px = 359.5;
+  std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3
+
+  /// Square pixels, principal point in the middle, no distortion. The field of view spans the image's outer edges.
+  static CameraIntrinsics from_field_of_view(int width_px, int height_px, double horizontal_fov_deg);
+};
+
+/// The camera in the vehicle: yaw, pitch, roll turn a camera that looks forward with its top up; looking straight
+/// down with the image top towards the nose is pitch = -90. The lever arm is in the body, forward-right-down.
+struct CameraMount {
+  double roll_deg = 0.0;
+  double pitch_deg = -90.0;
+  double yaw_deg = 0.0;
+  double x_m = 0.0;
+  double y_m = 0.0;
+  double z_m = 0.0;
+};
+
+struct CameraConfig {
+  CameraIntrinsics intrinsics;
+  CameraMount mount;
+
+  /// Every fault, named by its JSON path; empty where the camera can be used.
+  std::vector<std::string> problems() const;
+};
+
+/// Pose of the camera (right-down-forward) in the body (forward-right-down).
+Rigid3d body_from_camera(const CameraMount& mount);
+
+/// Rotation of a camera that looks along the body's forward axis with its top up.
+Eigen::Quaterniond body_from_forward_camera();
+
+/// Pixel <-> bearing. Construction checks the intrinsics and measures where the distortion model can be inverted.
+class CameraModel {
+ public:
+  /// Throws std::invalid_argument naming every problem.
+  explicit CameraModel(const CameraIntrinsics& intrinsics);
+
+  /// Unit bearing in the camera (right-down-forward) of a pixel; nullopt where the pixel is not finite or the
+  /// distortion has no inverse there (eq. 9, without the rotation).
+  std::optional<Eigen::Vector3d> bearing(const Eigen::Vector2d& pixel) const;
+
+  /// Pixel of a point in the camera (right-down-forward) [m] (eq. 7); nullopt for a point behind the camera, too far
+  /// off axis for the distortion model, or not finite. The pixel may lie outside the image.
+  std::optional<Eigen::Vector2d> pixel(const Eigen::Vector3d& point_in_camera) const;
+
+  /// Within the image and at least margin_px away from its edges. False for NaN.
+  bool contains(const Eigen::Vector2d& pixel, double margin_px = 0.0) const;
+
+  const CameraIntrinsics& intrinsics() const { return intrinsics_; }
+
+ private:
+  CameraIntrinsics intrinsics_;
+  double max_radius_squared_;  // of normalized undistorted coordinates: the distortion is monotonic up to here
+};
+
+}  // namespace geoloc

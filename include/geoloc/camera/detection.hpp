@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "geoloc/geometry/time.hpp"
+
+namespace geoloc {
+
+/// Axis-aligned box in pixels of the full image, in continuous coordinates: the image's left edge is x = 0.
+struct Box {
+  double x = 0.0;  ///< left edge
+  double y = 0.0;  ///< top edge
+  double width = 0.0;
+  double height = 0.0;
+
+  /// Centre in the camera model's coordinates, where integers are pixel centres (OpenCV's K): half a pixel less.
+  Eigen::Vector2d centre() const { return {x + 0.5 * width - 0.5, y + 0.5 * height - 0.5}; }
+};
+
+struct Detection {
+  Box box;
+  double confidence = 0.0;  ///< 0..1
+  int class_id = 0;
+};
+
+/// What a detector saw in one frame. An empty list is information too: nothing was seen.
+struct FrameDetections {
+  VehicleTime captured_at;  ///< middle of the exposure, on the autopilot's clock
+  HostTime captured_at_host;  ///< the same instant as UTC, kept for the record (first and last seen)
+  std::vector<Detection> detections;
+};
+
+}  // namespace geoloc

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "geoloc/geometry/attitude.hpp"
+#include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/geometry/time.hpp"
+
+namespace geoloc {
+
+/// The vehicle's attitude as the autopilot reports it (paper, eq. 2).
+struct AttitudeSample {
+  VehicleTime time;
+  EulerAngles angles;
+};
+
+/// The vehicle's position as the autopilot reports it (paper, eq. 1).
+struct PositionSample {
+  VehicleTime time;
+  Geodetic position;
+  double height_above_home_m = 0.0;
+  double height_msl_m = 0.0;          ///< for display and the metre scale only: metres off on real vehicles
+  std::optional<double> sigma_horizontal_m;  ///< 1-sigma that the receiver claims, where it does
+};
+
+}  // namespace geoloc

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/camera/camera.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/attitude.hpp"
+#include "geoloc/geometry/problems.hpp"
+
+namespace geoloc {
+namespace {
+
+using Coefficients = std::array<double, 5>;
+
+struct Distorted {
+  Eigen::Vector2d point;
+  Eigen::Matrix2d jacobian;
+};
+
+/// OpenCV's model and its derivative, in normalized coordinates.
+Distorted distort(const Eigen::Vector2d& undistorted, const Coefficients& coefficients) {
+  const auto [k1, k2, p1, p2, k3] = coefficients;
+  const double x = undistorted.x(), y = undistorted.y();
+  const double r2 = x * x + y * y;
+  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
+  const double radial_slope = k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3);  // d radial / d r2
+  Distorted result;
+  result.point = {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
+                  y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
+  const double cross = 2.0 * x * y * radial_slope + 2.0 * p1 * x + 2.0 * p2 * y;
+  result.jacobian << radial + 2.0 * x * x * radial_slope + 2.0 * p1 * y + 6.0 * p2 * x, cross,  //
+      cross, radial + 2.0 * y * y * radial_slope + 6.0 * p1 * y + 2.0 * p2 * x;
+  return result;
+}
+
+/// Newton from the distorted point; nullopt where it does not settle or leaves the invertible disc.
+std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted, const Coefficients& coefficients,
+                                         double max_radius_squared) {
+  constexpr int kMaxSteps = 20;
+  constexpr double kTolerance = 1e-12;
+  Eigen::Vector2d estimate = distorted;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Distorted there = distort(estimate, coefficients);
+    const Eigen::Vector2d residual = distorted - there.point;
+    if (residual.cwiseAbs().maxCoeff() < kTolerance) {
+      if (!(estimate.squaredNorm() <= max_radius_squared)) return std::nullopt;
+      return estimate;
+    }
+    const double determinant = there.jacobian.determinant();
+    if (!(std::abs(determinant) > 1e-9)) return std::nullopt;
+    estimate += there.jacobian.inverse() * residual;
+  }
+  return std::nullopt;
+}
+
+bool has_distortion(const Coefficients& coefficients) {
+  for (const double value : coefficients) {
+    if (value != 0.0) return true;
+  }
+  return false;
+}
+
+/// The radius at which the radial model stops growing: beyond it a pixel would have two bearings.
+double monotonic_radius_squared(const Coefficients& coefficients) {
+  if (!has_distortion(coefficients)) return std::numeric_limits<double>::infinity();
+  const auto [k1, k2, p1, p2, k3] = coefficients;
+  constexpr double kStep = 0.01;
+  constexpr double kWidest = 10.0;  // tan of 84 deg off axis
+  double radius = 0.0;
+  for (; radius < kWidest; radius += kStep) {
+    const double r2 = (radius + kStep) * (radius + kStep);
+    const double slope = 1.0 + r2 * (3.0 * k1 + r2 * (5.0 * k2 + r2 * 7.0 * k3));
+    if (!(slope > 0.0)) break;
+  }
+  return radius * radius;
+}
+
+}  // namespace
+
+CameraIntrinsics CameraIntrinsics::from_field_of_view(int width_px, int height_px, double horizontal_fov_deg) {
+  CameraIntrinsics intrinsics;
+  intrinsics.width_px = width_px;
+  intrinsics.height_px = height_px;
+  intrinsics.fx_px = intrinsics.fy_px = 0.5 * width_px / std::tan(0.5 * horizontal_fov_deg * kRadPerDeg);
+  intrinsics.cx_px = 0.5 * (width_px - 1);
+  intrinsics.cy_px = 0.5 * (height_px - 1);
+  return intrinsics;
+}
+
+std::vector<std::string> CameraConfig::problems() const {
+  Problems found;
+  constexpr int kMaxSize = 32768;
+  found.require(intrinsics.width_px > 0 && intrinsics.width_px <= kMaxSize, "camera.width must lie in [1, 32768]");
+  found.require(intrinsics.height_px > 0 && intrinsics.height_px <= kMaxSize, "camera.height must lie in [1, 32768]");
+  found.require(intrinsics.fx_px > 0 && std::isfinite(intrinsics.fx_px), "camera.fx must be > 0");
+  found.require(intrinsics.fy_px > 0 && std::isfinite(intrinsics.fy_px), "camera.fy must be > 0");
+  found.require(std::isfinite(intrinsics.cx_px), "camera.cx must be finite");
+  found.require(std::isfinite(intrinsics.cy_px), "camera.cy must be finite");
+  for (const double value : intrinsics.distortion) {
+    found.require(std::isfinite(value), "camera.distortion must be finite");
+  }
+  for (const double angle_deg : {mount.roll_deg, mount.pitch_deg, mount.yaw_deg}) {
+    found.require(std::abs(angle_deg) <= 360.0, "camera.mount angles must lie in [-360, 360] deg");
+  }
+  for (const double arm_m : {mount.x_m, mount.y_m, mount.z_m}) {
+    found.require(std::abs(arm_m) <= 100.0, "camera.mount lever arm must lie in [-100, 100] m");
+  }
+  return found.take();
+}
+
+Eigen::Quaterniond body_from_forward_camera() {
+  Eigen::Matrix3d rotation;
+  rotation << 0, 0, 1,  // the body's forward is the camera's forward (z),
+      1, 0, 0,          // its right the camera's right (x),
+      0, 1, 0;          // its down the camera's down (y)
+  return Eigen::Quaterniond(rotation);
+}
+
+Rigid3d body_from_camera(const CameraMount& mount) {
+  const EulerAngles angles{mount.roll_deg * kRadPerDeg, mount.pitch_deg * kRadPerDeg, mount.yaw_deg * kRadPerDeg};
+  // The same rotation sequence as the vehicle's in NED, here of the camera's carrier in the body.
+  const Eigen::Quaterniond body_from_carrier = ned_from_body(angles);
+  return {(body_from_carrier * body_from_forward_camera()).normalized(), {mount.x_m, mount.y_m, mount.z_m}};
+}
+
+CameraModel::CameraModel(const CameraIntrinsics& intrinsics)
+    : intrinsics_(intrinsics), max_radius_squared_(monotonic_radius_squared(intrinsics.distortion)) {
+  throw_if_any(CameraConfig{intrinsics, {}}.problems());
+}
+
+std::optional<Eigen::Vector3d> CameraModel::bearing(const Eigen::Vector2d& pixel) const {
+  if (!pixel.allFinite()) return std::nullopt;
+  const Eigen::Vector2d distorted{(pixel.x() - intrinsics_.cx_px) / intrinsics_.fx_px,
+                                  (pixel.y() - intrinsics_.cy_px) / intrinsics_.fy_px};
+  const auto normalized = undistort(distorted, intrinsics_.distortion, max_radius_squared_);
+  if (!normalized) return std::nullopt;
+  return normalized->homogeneous().normalized();
+}
+
+std::optional<Eigen::Vector2d> CameraModel::pixel(const Eigen::Vector3d& point_in_camera) const {
+  if (!(point_in_camera.z() > 1e-6) || !point_in_camera.allFinite()) return std::nullopt;
+  const Eigen::Vector2d normalized = point_in_camera.hnormalized();
+  if (!(normalized.squaredNorm() <= max_radius_squared_)) return std::nullopt;
+  const Eigen::Vector2d distorted = distort(normalized, intrinsics_.distortion).point;
+  return Eigen::Vector2d{intrinsics_.fx_px * distorted.x() + intrinsics_.cx_px,
+                         intrinsics_.fy_px * distorted.y() + intrinsics_.cy_px};
+}
+
+bool CameraModel::contains(const Eigen::Vector2d& pixel, double margin_px) const {
+  return pixel.x() >= -0.5 + margin_px && pixel.x() <= intrinsics_.width_px - 0.5 - margin_px &&
+         pixel.y() >= -0.5 + margin_px && pixel.y() <= intrinsics_.height_px - 0.5 - margin_px;
+}
+
+}  // namespace geoloc
