@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/camera/camera.hpp"
+#include "geoloc/io/recording/recording.hpp"
+#include "geoloc/io/recording/tlog.hpp"
+
+namespace geoloc::io {
+
+enum class BadLines {
+  kRefuse,  ///< throw at the first
+  kSkip     ///< leave out and count
+};
+
+struct Recording {
+  CameraConfig camera;
+  Tlog telemetry;
+  std::vector<RecordedFrame> frames;
+  std::optional<std::string> config_json;
+  std::vector<TrueTarget> truth;  ///< empty where the recording has none
+  std::size_t skipped_lines = 0;
+};
+
+/// Reads the whole folder. Throws std::runtime_error with file, line and reason for a missing file, a bad line, a
+/// number that is not finite, a box of no size, or frame times that run backwards.
+Recording read_recording(const std::filesystem::path& folder, BadLines bad_lines = BadLines::kRefuse);
+
+/// frames.jsonl alone; `name` stands for the file in messages.
+std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& name, BadLines bad_lines,
+                                       std::size_t& skipped_lines);
+
+/// GeoJSON Points with `id` and, optionally, `class_id`. Throws std::runtime_error with file and reason.
+std::vector<TrueTarget> read_truth(const std::filesystem::path& file);
+
+}  // namespace geoloc::io

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/json/fields.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace geoloc::io {
+namespace {
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string FieldReader::suggestion(const std::string& key) const {
+  constexpr std::size_t kLongest = 64;  // a hostile key is not worth comparing
+  std::string best;
+  std::size_t best_distance = 4;
+  for (const std::string& candidate : known_) {
+    const std::size_t distance = key.size() > kLongest ? kLongest : edit_distance(key, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  if (!best.empty()) return "did you mean " + best + "?";
+  return "--print-config shows them all";
+}
+
+void FieldReader::read(const nlohmann::json& json, const std::string& path, double& value) {
+  // JSON has no NaN, but 1e999 parses to infinity.
+  if (json.is_number() && std::isfinite(json.get<double>())) {
+    value = json.get<double>();
+  } else {
+    problems_.push_back(path + " must be a finite number");
+  }
+}
+
+void FieldReader::read(const nlohmann::json& json, const std::string& path, int& value) {
+  constexpr double kLargest = std::numeric_limits<int>::max();
+  if (json.is_number_integer() && std::abs(json.get<double>()) <= kLargest) {
+    value = json.get<int>();
+  } else {
+    problems_.push_back(path + " must be a whole number");
+  }
+}
+
+void FieldReader::read(const nlohmann::json& json, const std::string& path, bool& value) {
+  if (json.is_boolean()) {
+    value = json.get<bool>();
+  } else {
+    problems_.push_back(path + " must be true or false");
+  }
+}
+
+void FieldReader::read(const nlohmann::json& json, const std::string& path, std::string& value) {
+  if (json.is_string()) {
+    value = json.get<std::string>();
+  } else {
+    problems_.push_back(path + " must be a text");
+  }
+}
+
+}  // namespace geoloc::io
