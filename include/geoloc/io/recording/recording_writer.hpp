@@ -45,4 +45,7 @@ class RecordingWriter {
   std::uint64_t telemetry_records_ = 0;
 };
 
+/// The content of truth.geojson: a FeatureCollection of Points.
+std::string truth_to_geojson(const std::vector<TrueTarget>& targets);
+
 }  // namespace geoloc::io

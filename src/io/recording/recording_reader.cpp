@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/recording/recording_reader.hpp"
+
+#include <cmath>
+#include <fstream>
+#include <istream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "geoloc/io/json/camera_file.hpp"
+
+namespace geoloc::io {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Far beyond any real frame; keeps sums of coordinates finite and exact enough.
+constexpr double kLargestPixel = 1e6;
+constexpr std::int64_t kLatestStamp_us = 7'258'118'400'000'000;  // year 2200
+
+double finite_number(const json& value, const char* what) {
+  if (!value.is_number() || !std::isfinite(value.get<double>())) {
+    throw std::invalid_argument(std::string(what) + " must be a finite number");
+  }
+  return value.get<double>();
+}
+
+const json& member(const json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end()) throw std::invalid_argument(std::string(key) + " is missing");
+  return *found;
+}
+
+Box parse_box(const json& value) {
+  if (!value.is_array() || value.size() != 4) throw std::invalid_argument("box must be [x, y, width, height]");
+  Box box{finite_number(value[0], "box[0]"), finite_number(value[1], "box[1]"), finite_number(value[2], "box[2]"),
+          finite_number(value[3], "box[3]")};
+  if (!(box.width > 0.0 && box.height > 0.0)) throw std::invalid_argument("box has no size");
+  for (const double edge : {box.x, box.y, box.width, box.height}) {
+    if (std::abs(edge) > kLargestPixel) throw std::invalid_argument("box lies beyond any image");
+  }
+  return box;
+}
+
+Detection parse_detection(const json& value) {
+  if (!value.is_object()) throw std::invalid_argument("a detection must be an object");
+  Detection detection;
+  detection.box = parse_box(member(value, "box"));
+  detection.confidence = value.contains("confidence") ? finite_number(value["confidence"], "confidence") : 1.0;
+  if (!(detection.confidence >= 0.0 && detection.confidence <= 1.0)) {
+    throw std::invalid_argument("confidence must lie in [0, 1]");
+  }
+  if (value.contains("class_id")) {
+    const double class_id = finite_number(value["class_id"], "class_id");
+    if (!(class_id >= 0.0 && class_id < 1e6 && class_id == std::floor(class_id))) {
+      throw std::invalid_argument("class_id must be a whole number from 0");
+    }
+    detection.class_id = static_cast<int>(class_id);
+  }
+  return detection;
+}
+
+RecordedFrame parse_frame(const std::string& line) {
+  const json value = json::parse(line, nullptr, false);
+  if (value.is_discarded() || !value.is_object()) throw std::invalid_argument("not a JSON object");
+  const json& time = member(value, "time_us");
+  if (!time.is_number_integer() || time.get<std::int64_t>() < 0 || time.get<std::int64_t>() > kLatestStamp_us) {
+    throw std::invalid_argument("time_us must be whole microseconds since 1970");
+  }
+  RecordedFrame frame;
+  frame.captured_at = HostTime{std::chrono::microseconds{time.get<std::int64_t>()}};
+  const json& detections = member(value, "detections");
+  if (!detections.is_array()) throw std::invalid_argument("detections must be a list");
+  for (const json& detection : detections) frame.detections.push_back(parse_detection(detection));
+  if (const auto records = value.find("telemetry_records"); records != value.end()) {
+    if (!records->is_number_unsigned()) throw std::invalid_argument("telemetry_records must be a whole number from 0");
+    frame.telemetry_records = records->get<std::uint64_t>();
+  }
+  return frame;
+}
+
+TrueTarget parse_target(const json& feature, int position) {
+  const json& coordinates = member(member(feature, "geometry"), "coordinates");
+  if (!coordinates.is_array() || coordinates.size() < 2) {
+    throw std::invalid_argument("coordinates must be [lon, lat]");
+  }
+  TrueTarget target;
+  target.id = position;
+  target.position.longitude_deg = finite_number(coordinates[0], "longitude");
+  target.position.latitude_deg = finite_number(coordinates[1], "latitude");
+  if (!is_valid(target.position)) throw std::invalid_argument("not a place on Earth (lon, lat order?)");
+  if (const auto properties = feature.find("properties"); properties != feature.end() && properties->is_object()) {
+    target.id = properties->value("id", position);
+    target.class_id = properties->value("class_id", 0);
+  }
+  return target;
+}
+
+fs::path require_file(const fs::path& file) {
+  if (!fs::is_regular_file(file)) {
+    throw std::runtime_error(file.string() + ": missing; a recording holds telemetry.tlog, frames.jsonl, camera.json");
+  }
+  return file;
+}
+
+}  // namespace
+
+std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& name, BadLines bad_lines,
+                                       std::size_t& skipped_lines) {
+  std::vector<RecordedFrame> frames;
+  std::string line;
+  for (std::size_t number = 1; std::getline(input, line); ++number) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+    try {
+      RecordedFrame frame = parse_frame(line);
+      if (!frames.empty() && frame.captured_at < frames.back().captured_at) {
+        throw std::invalid_argument("time_us runs backwards");
+      }
+      frames.push_back(std::move(frame));
+    } catch (const std::exception& error) {
+      if (bad_lines == BadLines::kRefuse) {
+        throw std::runtime_error(name + ":" + std::to_string(number) + ": " + error.what() +
+                                 " (--keep-going skips bad lines)");
+      }
+      ++skipped_lines;
+    }
+  }
+  return frames;
+}
+
+std::vector<TrueTarget> read_truth(const fs::path& file) {
+  const json document = json::parse(read_text_file(file), nullptr, false);
+  if (document.is_discarded() || !document.is_object() || !document.contains("features") ||
+      !document["features"].is_array()) {
+    throw std::runtime_error(file.string() + ": not a GeoJSON FeatureCollection");
+  }
+  std::vector<TrueTarget> targets;
+  for (const json& feature : document["features"]) {
+    try {
+      targets.push_back(parse_target(feature, static_cast<int>(targets.size())));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(file.string() + ": feature " + std::to_string(targets.size()) + ": " + error.what());
+    }
+  }
+  return targets;
+}
+
+Recording read_recording(const fs::path& folder, BadLines bad_lines) {
+  if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + ": no such recording folder");
+  Recording recording;
+  recording.camera = read_camera_file(require_file(folder / "camera.json"));
+  const fs::path frames_file = require_file(folder / "frames.jsonl");
+  std::ifstream frames(frames_file, std::ios::binary);
+  if (!frames) throw std::runtime_error(frames_file.string() + ": cannot be opened");
+  recording.frames = read_frames(frames, frames_file.string(), bad_lines, recording.skipped_lines);
+  recording.telemetry = read_tlog(require_file(folder / "telemetry.tlog"));
+  if (fs::exists(folder / "config.json")) recording.config_json = read_text_file(folder / "config.json");
+  if (fs::exists(folder / "truth.geojson")) recording.truth = read_truth(folder / "truth.geojson");
+  return recording;
+}
+
+}  // namespace geoloc::io
