@@ -1,6 +1,7 @@
 # Target mavlink::mavlink: MAVLink's C headers, generated at configure time from the XML and the generator that one
-# pinned pymavlink wheel carries. Nothing is installed and nothing foreign is committed.
-#   offline: -DMAVLINK_INCLUDE_DIR=<folder that holds common/mavlink.h>
+# pinned pymavlink wheel carries. Nothing is installed and nothing foreign is committed. All dialects: a receiver can
+# check only those frames whose message it knows, and ArduPilot sends many that are not in common.xml.
+#   offline: -DMAVLINK_INCLUDE_DIR=<folder that holds all/mavlink.h>
 #   offline: -DGEOLOC_PYMAVLINK_WHEEL=<the wheel named below>
 include_guard(GLOBAL)
 set(MAVLINK_INCLUDE_DIR "" CACHE PATH "Generated MAVLink 2 C headers (skips the download)")
@@ -58,22 +59,22 @@ function(_geoloc_generate_headers output)
   execute_process(
     COMMAND "${CMAKE_COMMAND}" -E env "PYTHONPATH=${_root}/package" PYTHONDONTWRITEBYTECODE=1 MDEF=
       "${Python3_EXECUTABLE}" -m pymavlink.tools.mavgen --lang=C --wire-protocol=2.0
-      -o "${output}.partial" "${_root}/package/pymavlink/dialects/v20/common.xml"
+      -o "${output}.partial" "${_root}/package/pymavlink/dialects/v20/all.xml"
     RESULT_VARIABLE status OUTPUT_QUIET)
-  if(NOT status EQUAL 0 OR NOT EXISTS "${output}.partial/common/mavlink.h")
-    message(FATAL_ERROR "pymavlink's generator failed on common.xml")
+  if(NOT status EQUAL 0 OR NOT EXISTS "${output}.partial/all/mavlink.h")
+    message(FATAL_ERROR "pymavlink's generator failed on all.xml")
   endif()
   file(RENAME "${output}.partial" "${output}")
 endfunction()
 
 if(MAVLINK_INCLUDE_DIR)
   set(_include "${MAVLINK_INCLUDE_DIR}")
-  if(NOT EXISTS "${_include}/common/mavlink.h")
-    message(FATAL_ERROR "MAVLINK_INCLUDE_DIR=${_include} holds no common/mavlink.h")
+  if(NOT EXISTS "${_include}/all/mavlink.h")
+    message(FATAL_ERROR "MAVLINK_INCLUDE_DIR=${_include} holds no all/mavlink.h")
   endif()
 else()
   set(_include "${_root}/include-${_version}")
-  if(NOT EXISTS "${_include}/common/mavlink.h")
+  if(NOT EXISTS "${_include}/all/mavlink.h")
     _geoloc_generate_headers("${_include}")
   endif()
 endif()
