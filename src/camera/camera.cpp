@@ -35,9 +35,10 @@ Distorted distort(const Eigen::Vector2d& undistorted, const Coefficients& coeffi
   return result;
 }
 
-/// Newton from the distorted point; nullopt where it does not settle or leaves the invertible disc.
-std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted, const Coefficients& coefficients,
-                                         double max_radius_squared) {
+/// Newton from the distorted point; nullopt where it does not settle or leaves the invertible disc. The
+/// Jacobian is that of undistorted by distorted coordinates.
+std::optional<ImageRay> undistort(const Eigen::Vector2d& distorted, const Coefficients& coefficients,
+                                  double max_radius_squared) {
   constexpr int kMaxSteps = 20;
   constexpr double kTolerance = 1e-12;
   Eigen::Vector2d estimate = distorted;
@@ -46,10 +47,9 @@ std::optional<Eigen::Vector2d> undistort(const Eigen::Vector2d& distorted, const
     const Eigen::Vector2d residual = distorted - there.point;
     if (residual.cwiseAbs().maxCoeff() < kTolerance) {
       if (!(estimate.squaredNorm() <= max_radius_squared)) return std::nullopt;
-      return estimate;
+      return ImageRay{estimate, there.jacobian.inverse()};
     }
-    const double determinant = there.jacobian.determinant();
-    if (!(std::abs(determinant) > 1e-9)) return std::nullopt;
+    if (!(std::abs(there.jacobian.determinant()) > 1e-9)) return std::nullopt;
     estimate += there.jacobian.inverse() * residual;
   }
   return std::nullopt;
@@ -79,7 +79,8 @@ double monotonic_radius_squared(const Coefficients& coefficients) {
 
 }  // namespace
 
-CameraIntrinsics CameraIntrinsics::from_field_of_view(int width_px, int height_px, double horizontal_fov_deg) {
+CameraIntrinsics CameraIntrinsics::from_field_of_view(int width_px, int height_px,
+                                                      double horizontal_fov_deg) {
   CameraIntrinsics intrinsics;
   intrinsics.width_px = width_px;
   intrinsics.height_px = height_px;
@@ -92,8 +93,10 @@ CameraIntrinsics CameraIntrinsics::from_field_of_view(int width_px, int height_p
 std::vector<std::string> CameraConfig::problems() const {
   Problems found;
   constexpr int kMaxSize = 32768;
-  found.require(intrinsics.width_px > 0 && intrinsics.width_px <= kMaxSize, "camera.width must lie in [1, 32768]");
-  found.require(intrinsics.height_px > 0 && intrinsics.height_px <= kMaxSize, "camera.height must lie in [1, 32768]");
+  found.require(intrinsics.width_px > 0 && intrinsics.width_px <= kMaxSize,
+                "camera.width must lie in [1, 32768]");
+  found.require(intrinsics.height_px > 0 && intrinsics.height_px <= kMaxSize,
+                "camera.height must lie in [1, 32768]");
   found.require(intrinsics.fx_px > 0 && std::isfinite(intrinsics.fx_px), "camera.fx must be > 0");
   found.require(intrinsics.fy_px > 0 && std::isfinite(intrinsics.fy_px), "camera.fy must be > 0");
   found.require(std::isfinite(intrinsics.cx_px), "camera.cx must be finite");
@@ -119,7 +122,8 @@ Eigen::Quaterniond body_from_forward_camera() {
 }
 
 Rigid3d body_from_camera(const CameraMount& mount) {
-  const EulerAngles angles{mount.roll_deg * kRadPerDeg, mount.pitch_deg * kRadPerDeg, mount.yaw_deg * kRadPerDeg};
+  const EulerAngles angles{mount.roll_deg * kRadPerDeg, mount.pitch_deg * kRadPerDeg,
+                           mount.yaw_deg * kRadPerDeg};
   // The same rotation sequence as the vehicle's in NED, here of the camera's carrier in the body.
   const Eigen::Quaterniond body_from_carrier = ned_from_body(angles);
   return {(body_from_carrier * body_from_forward_camera()).normalized(), {mount.x_m, mount.y_m, mount.z_m}};
@@ -130,13 +134,15 @@ CameraModel::CameraModel(const CameraIntrinsics& intrinsics)
   throw_if_any(CameraConfig{intrinsics, {}}.problems());
 }
 
-std::optional<Eigen::Vector3d> CameraModel::bearing(const Eigen::Vector2d& pixel) const {
+std::optional<ImageRay> CameraModel::ray(const Eigen::Vector2d& pixel) const {
   if (!pixel.allFinite()) return std::nullopt;
   const Eigen::Vector2d distorted{(pixel.x() - intrinsics_.cx_px) / intrinsics_.fx_px,
                                   (pixel.y() - intrinsics_.cy_px) / intrinsics_.fy_px};
-  const auto normalized = undistort(distorted, intrinsics_.distortion, max_radius_squared_);
-  if (!normalized) return std::nullopt;
-  return normalized->homogeneous().normalized();
+  auto ray = undistort(distorted, intrinsics_.distortion, max_radius_squared_);
+  if (!ray) return std::nullopt;
+  ray->normalized_from_pixel.col(0) /= intrinsics_.fx_px;
+  ray->normalized_from_pixel.col(1) /= intrinsics_.fy_px;
+  return ray;
 }
 
 std::optional<Eigen::Vector2d> CameraModel::pixel(const Eigen::Vector3d& point_in_camera) const {

@@ -27,28 +27,31 @@ LocalFrame::LocalFrame(const Geodetic& origin, double height_ellipsoid_m)
   if (!is_valid(origin) || !std::isfinite(height_ellipsoid_m)) {
     throw std::invalid_argument("LocalFrame: the origin is not a point on the WGS84 ellipsoid");
   }
-  cartesian_ = std::make_shared<const GeographicLib::LocalCartesian>(origin.latitude_deg, origin.longitude_deg,
-                                                                     height_ellipsoid_m);
+  cartesian_ = std::make_shared<const GeographicLib::LocalCartesian>(
+      origin.latitude_deg, origin.longitude_deg, height_ellipsoid_m);
 }
 
 LocalPoint LocalFrame::to_local(const Geodetic& point) const {
   double x = 0.0, y = 0.0, z = 0.0;
   cartesian_->Forward(point.latitude_deg, point.longitude_deg, height_ellipsoid_m_, x, y, z);
-  // Meridian convergence to first order in the longitude difference; its error is below 1e-5 rad within 50 km.
+  // Meridian convergence to first order in the longitude difference; its error is below 1e-5 rad within 50
+  // km.
   const double longitude_difference_deg = std::remainder(point.longitude_deg - origin_.longitude_deg, 360.0);
   const double mean_latitude_deg = 0.5 * (point.latitude_deg + origin_.latitude_deg);
-  const double convergence_rad = longitude_difference_deg * kRadPerDeg * std::sin(mean_latitude_deg * kRadPerDeg);
+  const double convergence_rad =
+      longitude_difference_deg * kRadPerDeg * std::sin(mean_latitude_deg * kRadPerDeg);
   return {{x, y}, -convergence_rad};
 }
 
 Geodetic LocalFrame::to_geodetic(const Eigen::Vector2d& position_in_enu) const {
-  // The tangent plane rises above the ellipsoid with distance; two steps put the point back on it, to micrometres
-  // within 100 km.
+  // The tangent plane rises above the ellipsoid with distance; two steps put the point back on it, to
+  // micrometres within 100 km.
   double up = 0.0;
   Geodetic point;
   for (int step = 0; step < 3; ++step) {
     double height = 0.0;
-    cartesian_->Reverse(position_in_enu.x(), position_in_enu.y(), up, point.latitude_deg, point.longitude_deg, height);
+    cartesian_->Reverse(position_in_enu.x(), position_in_enu.y(), up, point.latitude_deg, point.longitude_deg,
+                        height);
     up -= height - height_ellipsoid_m_;
   }
   return point;

@@ -11,7 +11,8 @@
 
 namespace geoloc {
 
-/// Pinhole with Brown distortion, in OpenCV's conventions: pixel centres at integers, distortion k1 k2 p1 p2 k3.
+/// Pinhole with Brown distortion, in OpenCV's conventions: pixel centres at integers, distortion k1 k2 p1 p2
+/// k3.
 struct CameraIntrinsics {
   int width_px = 1280;
   int height_px = 720;
@@ -21,12 +22,14 @@ struct CameraIntrinsics {
   double cy_px = 359.5;
   std::array<double, 5> distortion{};  ///< k1 k2 p1 p2 k3
 
-  /// Square pixels, principal point in the middle, no distortion. The field of view spans the image's outer edges.
+  /// Square pixels, principal point in the middle, no distortion. The field of view spans the image's outer
+  /// edges.
   static CameraIntrinsics from_field_of_view(int width_px, int height_px, double horizontal_fov_deg);
 };
 
-/// The camera in the vehicle: yaw, pitch, roll turn a camera that looks forward with its top up; looking straight
-/// down with the image top towards the nose is pitch = -90. The lever arm is in the body, forward-right-down.
+/// The camera in the vehicle: yaw, pitch, roll turn a camera that looks forward with its top up; looking
+/// straight down with the image top towards the nose is pitch = -90. The lever arm is in the body,
+/// forward-right-down.
 struct CameraMount {
   double roll_deg = 0.0;
   double pitch_deg = -90.0;
@@ -50,18 +53,25 @@ Rigid3d body_from_camera(const CameraMount& mount);
 /// Rotation of a camera that looks along the body's forward axis with its top up.
 Eigen::Quaterniond body_from_forward_camera();
 
-/// Pixel <-> bearing. Construction checks the intrinsics and measures where the distortion model can be inverted.
+/// A pixel's line of sight in the camera (right-down-forward): the direction is (normalized, 1), not unit
+/// length.
+struct ImageRay {
+  Eigen::Vector2d normalized;             ///< without distortion, at unit depth
+  Eigen::Matrix2d normalized_from_pixel;  ///< d normalized / d pixel [1/px]
+};
+
+/// Pixel <-> line of sight. Construction checks the intrinsics and measures where the distortion model can be
+/// inverted.
 class CameraModel {
  public:
   /// Throws std::invalid_argument naming every problem.
   explicit CameraModel(const CameraIntrinsics& intrinsics);
 
-  /// Unit bearing in the camera (right-down-forward) of a pixel; nullopt where the pixel is not finite or the
-  /// distortion has no inverse there (eq. 9, without the rotation).
-  std::optional<Eigen::Vector3d> bearing(const Eigen::Vector2d& pixel) const;
+  /// K^-1 p of eq. 9; nullopt where the pixel is not finite or the distortion has no inverse there.
+  std::optional<ImageRay> ray(const Eigen::Vector2d& pixel) const;
 
-  /// Pixel of a point in the camera (right-down-forward) [m] (eq. 7); nullopt for a point behind the camera, too far
-  /// off axis for the distortion model, or not finite. The pixel may lie outside the image.
+  /// Pixel of a point in the camera (right-down-forward) [m] (eq. 7); nullopt for a point behind the camera,
+  /// too far off axis for the distortion model, or not finite. The pixel may lie outside the image.
   std::optional<Eigen::Vector2d> pixel(const Eigen::Vector3d& point_in_camera) const;
 
   /// Within the image and at least margin_px away from its edges. False for NaN.
@@ -71,7 +81,8 @@ class CameraModel {
 
  private:
   CameraIntrinsics intrinsics_;
-  double max_radius_squared_;  // of normalized undistorted coordinates: the distortion is monotonic up to here
+  double
+      max_radius_squared_;  // of normalized undistorted coordinates: the distortion is monotonic up to here
 };
 
 }  // namespace geoloc

@@ -15,7 +15,8 @@ struct Box {
   double width = 0.0;
   double height = 0.0;
 
-  /// Centre in the camera model's coordinates, where integers are pixel centres (OpenCV's K): half a pixel less.
+  /// Centre in the camera model's coordinates, where integers are pixel centres (OpenCV's K): half a pixel
+  /// less.
   Eigen::Vector2d centre() const { return {x + 0.5 * width - 0.5, y + 0.5 * height - 0.5}; }
 };
 
@@ -27,7 +28,7 @@ struct Detection {
 
 /// What a detector saw in one frame. An empty list is information too: nothing was seen.
 struct FrameDetections {
-  VehicleTime captured_at;  ///< middle of the exposure, on the autopilot's clock
+  VehicleTime captured_at;    ///< middle of the exposure, on the autopilot's clock
   HostTime captured_at_host;  ///< the same instant as UTC, kept for the record (first and last seen)
   std::vector<Detection> detections;
 };

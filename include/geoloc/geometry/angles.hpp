@@ -10,6 +10,8 @@ inline constexpr double kRadPerDeg = kPi / 180.0;
 inline constexpr double kDegPerRad = 180.0 / kPi;
 
 /// The same angle [rad] in [-pi, pi].
-inline double wrap_to_pi(double angle_rad) { return std::remainder(angle_rad, 2.0 * kPi); }
+inline double wrap_to_pi(double angle_rad) {
+  return std::remainder(angle_rad, 2.0 * kPi);
+}
 
 }  // namespace geoloc

@@ -6,7 +6,8 @@
 
 namespace geoloc {
 
-/// A value, or the reason why there is none. What C++23's std::expected offers, as far as the library needs it.
+/// A value, or the reason why there is none. What C++23's std::expected offers, as far as the library needs
+/// it.
 template <typename Value, typename Error>
 class [[nodiscard]] Expected {
  public:

@@ -37,13 +37,13 @@ struct LocalPoint {
 };
 
 /// Local east-north plane that touches the WGS84 ellipsoid (raised by a height) at an origin. Conversions are
-/// GeographicLib's LocalCartesian, exact to nanometres; heights are kept apart from it on purpose: up in this library
-/// is the height above home, which follows the ground, not the tangent plane. Horizontally the two differ by
-/// less than 1 cm within 10 km of the origin.
+/// GeographicLib's LocalCartesian, exact to nanometres; heights are kept apart from it on purpose: up in this
+/// library is the height above home, which follows the ground, not the tangent plane. Horizontally the two
+/// differ by less than 1 cm within 10 km of the origin.
 class LocalFrame {
  public:
-  /// height_ellipsoid_m is where metres are true: the height of home, roughly (100 m of error scale lengths by 1.6e-5).
-  /// Throws std::invalid_argument for an invalid origin or a non-finite height.
+  /// height_ellipsoid_m is where metres are true: the height of home, roughly (100 m of error scale lengths
+  /// by 1.6e-5). Throws std::invalid_argument for an invalid origin or a non-finite height.
   explicit LocalFrame(const Geodetic& origin, double height_ellipsoid_m = 0.0);
 
   LocalPoint to_local(const Geodetic& point) const;

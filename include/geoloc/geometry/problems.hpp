@@ -14,7 +14,9 @@ class Problems {
   void require(bool holds, const char* message) {
     if (!holds) found_.emplace_back(message);
   }
-  void add(const std::vector<std::string>& others) { found_.insert(found_.end(), others.begin(), others.end()); }
+  void add(const std::vector<std::string>& others) {
+    found_.insert(found_.end(), others.begin(), others.end());
+  }
   std::vector<std::string> take() { return std::move(found_); }
 
  private:

@@ -21,8 +21,8 @@ struct Plane {
   Scalar offset_m;                     ///< normal.dot(point) on the plane
 };
 
-/// Range [m] from the ray's origin to the plane (paper, eq. 10); nullopt where the ray is parallel to the plane,
-/// leads away from it, or is not finite.
+/// Range [m] from the ray's origin to the plane (paper, eq. 10); nullopt where the ray is parallel to the
+/// plane, leads away from it, or is not finite.
 template <typename Scalar>
 std::optional<Scalar> intersect(const Ray<Scalar>& ray, const Plane<Scalar>& plane) {
   using std::abs;

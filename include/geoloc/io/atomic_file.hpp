@@ -21,7 +21,8 @@ inline void write_file_atomically(const std::filesystem::path& file, std::string
   const auto fail = [&](int error) {
     std::error_code ignored;
     std::filesystem::remove(beside, ignored);
-    throw std::runtime_error(file.string() + ": cannot be written: " + std::generic_category().message(error));
+    throw std::runtime_error(file.string() +
+                             ": cannot be written: " + std::generic_category().message(error));
   };
   errno = 0;
   std::ofstream output(beside, std::ios::binary);

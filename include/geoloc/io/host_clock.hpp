@@ -7,8 +7,9 @@
 
 namespace geoloc::io {
 
-/// Reads the host clock: UTC at construction, carried on by the monotonic clock, in whole microseconds, because that is
-/// what recordings store and a replay is to see the very same times. Make one per program and pass it along.
+/// Reads the host clock: UTC at construction, carried on by the monotonic clock, in whole microseconds,
+/// because that is what recordings store and a replay is to see the very same times. Make one per program and
+/// pass it along.
 class HostClock {
  public:
   HostClock() : HostClock(std::chrono::system_clock::now(), std::chrono::steady_clock::now()) {}
@@ -16,7 +17,8 @@ class HostClock {
   HostTime now() const { return at(std::chrono::steady_clock::now()); }
 
   HostTime at(std::chrono::steady_clock::time_point monotonic) const {
-    return HostTime{std::chrono::floor<std::chrono::microseconds>(utc_at_start_ + (monotonic - monotonic_at_start_))};
+    return HostTime{
+        std::chrono::floor<std::chrono::microseconds>(utc_at_start_ + (monotonic - monotonic_at_start_))};
   }
 
  private:

@@ -7,8 +7,9 @@
 
 namespace geoloc {
 
-/// Tells a reboot of the vehicle (its boot clock goes back) from packets that come late or with a damaged stamp.
-/// One stray stamp proves nothing: a reboot is believed when several consecutive stamps agree on the new time.
+/// Tells a reboot of the vehicle (its boot clock goes back) from packets that come late or with a damaged
+/// stamp. One stray stamp proves nothing: a reboot is believed when several consecutive stamps agree on the
+/// new time.
 class BootClockMonitor {
  public:
   enum class Verdict {

@@ -65,8 +65,8 @@ nlohmann::ordered_json camera_to_json(const CameraConfig& camera) {
   return writer.take();
 }
 
-void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict, CameraConfig& camera,
-                      std::vector<std::string>& problems) {
+void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict,
+                      CameraConfig& camera, std::vector<std::string>& problems) {
   nlohmann::json numbers = object;
   const bool has_field_of_view = object.is_object() && object.contains(kFieldOfView);
   if (has_field_of_view) numbers.erase(kFieldOfView);

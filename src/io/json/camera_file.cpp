@@ -45,7 +45,8 @@ void read_yaml(const YAML::Node& root, CameraConfig& camera, std::vector<std::st
   camera.intrinsics.height_px = root["image_height"].as<int>();
   const auto model = root["distortion_model"] ? root["distortion_model"].as<std::string>() : "plumb_bob";
   if (model != "plumb_bob") {
-    problems.push_back("distortion_model " + model + " is not supported: calibrate with plumb_bob (k1 k2 p1 p2 k3)");
+    problems.push_back("distortion_model " + model +
+                       " is not supported: calibrate with plumb_bob (k1 k2 p1 p2 k3)");
   }
   const auto k = matrix_data(root, "camera_matrix", 9, 9, problems);
   const auto d = matrix_data(root, "distortion_coefficients", 4, 5, problems);
@@ -62,7 +63,8 @@ void read_yaml(const YAML::Node& root, CameraConfig& camera, std::vector<std::st
 
 std::string read_text_file(const std::filesystem::path& file, std::size_t max_bytes) {
   std::ifstream input(file, std::ios::binary);
-  if (!input || std::filesystem::is_directory(file)) throw std::runtime_error(file.string() + ": cannot be opened");
+  if (!input || std::filesystem::is_directory(file))
+    throw std::runtime_error(file.string() + ": cannot be opened");
   std::string text;
   std::vector<char> chunk(64u << 10);
   while (input.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || input.gcount() > 0) {
@@ -75,13 +77,15 @@ std::string read_text_file(const std::filesystem::path& file, std::size_t max_by
   return text;
 }
 
-CameraConfig camera_from_yaml(const std::string& text, const std::string& name, const CameraConfig& defaults) {
+CameraConfig camera_from_yaml(const std::string& text, const std::string& name,
+                              const CameraConfig& defaults) {
   CameraConfig camera = defaults;
   std::vector<std::string> problems;
   try {
     const YAML::Node root = YAML::Load(without_opencv_directive(text));
     if (!root.IsMap() || !root["image_width"] || !root["image_height"] || !root["camera_matrix"]) {
-      fail(name, {"image_width, image_height and camera_matrix are needed (OpenCV's or ROS' calibration YAML)"});
+      fail(name,
+           {"image_width, image_height and camera_matrix are needed (OpenCV's or ROS' calibration YAML)"});
     }
     read_yaml(root, camera, problems);
   } catch (const YAML::Exception& error) {
@@ -100,13 +104,15 @@ CameraConfig read_camera_file(const std::filesystem::path& file, const CameraCon
   CameraConfig camera = defaults;
   std::vector<std::string> problems;
   const auto json = nlohmann::json::parse(text, nullptr, false);
-  if (json.is_discarded()) fail(file.string(), {"not JSON (a calibration in YAML must end in .yaml or .yml)"});
+  if (json.is_discarded())
+    fail(file.string(), {"not JSON (a calibration in YAML must end in .yaml or .yml)"});
   for (const char* key : {"width", "height"}) {
     if (!json.contains(key)) problems.push_back(std::string(key) + " is missing");
   }
   if (!json.contains("horizontal_fov_deg")) {
     for (const char* key : {"fx", "fy", "cx", "cy"}) {
-      if (!json.contains(key)) problems.push_back(std::string(key) + " is missing (or give horizontal_fov_deg)");
+      if (!json.contains(key))
+        problems.push_back(std::string(key) + " is missing (or give horizontal_fov_deg)");
     }
   }
   camera_from_json(json, "", false, camera, problems);

@@ -33,9 +33,10 @@ const json& member(const json& object, const char* key) {
 }
 
 Box parse_box(const json& value) {
-  if (!value.is_array() || value.size() != 4) throw std::invalid_argument("box must be [x, y, width, height]");
-  Box box{finite_number(value[0], "box[0]"), finite_number(value[1], "box[1]"), finite_number(value[2], "box[2]"),
-          finite_number(value[3], "box[3]")};
+  if (!value.is_array() || value.size() != 4)
+    throw std::invalid_argument("box must be [x, y, width, height]");
+  Box box{finite_number(value[0], "box[0]"), finite_number(value[1], "box[1]"),
+          finite_number(value[2], "box[2]"), finite_number(value[3], "box[3]")};
   if (!(box.width > 0.0 && box.height > 0.0)) throw std::invalid_argument("box has no size");
   for (const double edge : {box.x, box.y, box.width, box.height}) {
     if (std::abs(edge) > kLargestPixel) throw std::invalid_argument("box lies beyond any image");
@@ -47,7 +48,8 @@ Detection parse_detection(const json& value) {
   if (!value.is_object()) throw std::invalid_argument("a detection must be an object");
   Detection detection;
   detection.box = parse_box(member(value, "box"));
-  detection.confidence = value.contains("confidence") ? finite_number(value["confidence"], "confidence") : 1.0;
+  detection.confidence =
+      value.contains("confidence") ? finite_number(value["confidence"], "confidence") : 1.0;
   if (!(detection.confidence >= 0.0 && detection.confidence <= 1.0)) {
     throw std::invalid_argument("confidence must lie in [0, 1]");
   }
@@ -65,7 +67,8 @@ RecordedFrame parse_frame(const std::string& line) {
   const json value = json::parse(line, nullptr, false);
   if (value.is_discarded() || !value.is_object()) throw std::invalid_argument("not a JSON object");
   const json& time = member(value, "time_us");
-  if (!time.is_number_integer() || time.get<std::int64_t>() < 0 || time.get<std::int64_t>() > kLatestStamp_us) {
+  if (!time.is_number_integer() || time.get<std::int64_t>() < 0 ||
+      time.get<std::int64_t>() > kLatestStamp_us) {
     throw std::invalid_argument("time_us must be whole microseconds since 1970");
   }
   RecordedFrame frame;
@@ -74,7 +77,8 @@ RecordedFrame parse_frame(const std::string& line) {
   if (!detections.is_array()) throw std::invalid_argument("detections must be a list");
   for (const json& detection : detections) frame.detections.push_back(parse_detection(detection));
   if (const auto records = value.find("telemetry_records"); records != value.end()) {
-    if (!records->is_number_unsigned()) throw std::invalid_argument("telemetry_records must be a whole number from 0");
+    if (!records->is_number_unsigned())
+      throw std::invalid_argument("telemetry_records must be a whole number from 0");
     frame.telemetry_records = records->get<std::uint64_t>();
   }
   return frame;
@@ -90,7 +94,8 @@ TrueTarget parse_target(const json& feature, int position) {
   target.position.longitude_deg = finite_number(coordinates[0], "longitude");
   target.position.latitude_deg = finite_number(coordinates[1], "latitude");
   if (!is_valid(target.position)) throw std::invalid_argument("not a place on Earth (lon, lat order?)");
-  if (const auto properties = feature.find("properties"); properties != feature.end() && properties->is_object()) {
+  if (const auto properties = feature.find("properties");
+      properties != feature.end() && properties->is_object()) {
     target.id = properties->value("id", position);
     target.class_id = properties->value("class_id", 0);
   }
@@ -99,7 +104,8 @@ TrueTarget parse_target(const json& feature, int position) {
 
 fs::path require_file(const fs::path& file) {
   if (!fs::is_regular_file(file)) {
-    throw std::runtime_error(file.string() + ": missing; a recording holds telemetry.tlog, frames.jsonl, camera.json");
+    throw std::runtime_error(file.string() +
+                             ": missing; a recording holds telemetry.tlog, frames.jsonl, camera.json");
   }
   return file;
 }
@@ -140,7 +146,8 @@ std::vector<TrueTarget> read_truth(const fs::path& file) {
     try {
       targets.push_back(parse_target(feature, static_cast<int>(targets.size())));
     } catch (const std::exception& error) {
-      throw std::runtime_error(file.string() + ": feature " + std::to_string(targets.size()) + ": " + error.what());
+      throw std::runtime_error(file.string() + ": feature " + std::to_string(targets.size()) + ": " +
+                               error.what());
     }
   }
   return targets;

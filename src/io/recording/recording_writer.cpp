@@ -16,8 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& file, int error) {
-  throw std::runtime_error(file.string() + ": cannot be written: " +
-                           std::generic_category().message(error != 0 ? error : EIO));
+  throw std::runtime_error(
+      file.string() + ": cannot be written: " + std::generic_category().message(error != 0 ? error : EIO));
 }
 
 std::ofstream open_for_writing(const fs::path& file) {
@@ -46,7 +46,8 @@ nlohmann::ordered_json to_json(const RecordedFrame& frame) {
                           {"confidence", detection.confidence},
                           {"class_id", detection.class_id}});
   }
-  nlohmann::ordered_json line{{"time_us", microseconds(frame.captured_at)}, {"detections", std::move(detections)}};
+  nlohmann::ordered_json line{{"time_us", microseconds(frame.captured_at)},
+                              {"detections", std::move(detections)}};
   if (frame.telemetry_records) line["telemetry_records"] = *frame.telemetry_records;
   return line;
 }
@@ -78,7 +79,9 @@ void RecordingWriter::write_camera(const CameraConfig& camera) {
   write_extra("camera.json", camera_to_json(camera).dump(2) + "\n");
 }
 
-void RecordingWriter::write_config(const std::string& json) { write_extra("config.json", json + "\n"); }
+void RecordingWriter::write_config(const std::string& json) {
+  write_extra("config.json", json + "\n");
+}
 
 void RecordingWriter::write_truth(const std::vector<TrueTarget>& targets) {
   write_extra("truth.geojson", truth_to_geojson(targets));

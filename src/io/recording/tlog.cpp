@@ -31,7 +31,9 @@ std::int64_t big_endian_microseconds(const std::uint8_t* bytes) {
 }
 
 /// Stamps are believed between 1970 and 2200: within the range of nanoseconds in 64 bits.
-bool is_plausible_stamp(std::int64_t stamp_us) { return stamp_us >= 0 && stamp_us < 7'258'118'400'000'000; }
+bool is_plausible_stamp(std::int64_t stamp_us) {
+  return stamp_us >= 0 && stamp_us < 7'258'118'400'000'000;
+}
 
 /// Size of the record (stamp and frame) at `offset`; 0 where none starts.
 std::size_t record_size(const std::vector<std::uint8_t>& bytes, std::size_t offset) {

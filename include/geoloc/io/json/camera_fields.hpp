@@ -12,9 +12,9 @@ namespace geoloc::io {
 /// The object of camera.json (docs/formats.md): width height fx fy cx cy distortion[k1 k2 p1 p2 k3] mount{…}.
 nlohmann::ordered_json camera_to_json(const CameraConfig& camera);
 
-/// Reads that object over `camera`. In place of fx fy cx cy it takes `horizontal_fov_deg`. Extra keys are refused
-/// only where `strict`. Faults are added to `problems`, named below `path`.
-void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict, CameraConfig& camera,
-                      std::vector<std::string>& problems);
+/// Reads that object over `camera`. In place of fx fy cx cy it takes `horizontal_fov_deg`. Extra keys are
+/// refused only where `strict`. Faults are added to `problems`, named below `path`.
+void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict,
+                      CameraConfig& camera, std::vector<std::string>& problems);
 
 }  // namespace geoloc::io

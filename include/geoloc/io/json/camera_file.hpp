@@ -8,14 +8,15 @@
 
 namespace geoloc::io {
 
-/// Reads camera.json, or the YAML that OpenCV's calibration and ROS' camera_info write (which hold no mount: it stays
-/// as in `defaults`). Throws std::runtime_error naming the file and every fault.
+/// Reads camera.json, or the YAML that OpenCV's calibration and ROS' camera_info write (which hold no mount:
+/// it stays as in `defaults`). Throws std::runtime_error naming the file and every fault.
 CameraConfig read_camera_file(const std::filesystem::path& file, const CameraConfig& defaults = {});
 
 /// The YAML alone; `name` stands for the file in messages.
 CameraConfig camera_from_yaml(const std::string& text, const std::string& name, const CameraConfig& defaults);
 
-/// Whole file as text. Throws std::runtime_error naming it if it cannot be read or is larger than `max_bytes`.
+/// Whole file as text. Throws std::runtime_error naming it if it cannot be read or is larger than
+/// `max_bytes`.
 std::string read_text_file(const std::filesystem::path& file, std::size_t max_bytes = 16u << 20);
 
 }  // namespace geoloc::io

@@ -10,15 +10,17 @@
 #include <utility>
 #include <vector>
 
-// A structure is described once, by `template <class V> void visit_fields(V& v, Structure& s)` that names each field;
-// FieldReader, FieldWriter and FieldLister turn that one description into reading, printing and documenting it.
+// A structure is described once, by `template <class V> void visit_fields(V& v, Structure& s)` that names
+// each field; FieldReader, FieldWriter and FieldLister turn that one description into reading, printing and
+// documenting it.
 namespace geoloc::io {
 
 /// The spelling of an enumerator in JSON. Specialise `EnumNames<E>::all`.
 template <typename Enum>
 struct EnumNames;
 
-/// Fills a structure from a JSON object; whatever is wrong, an unknown key too, becomes a problem that names its path.
+/// Fills a structure from a JSON object; whatever is wrong, an unknown key too, becomes a problem that names
+/// its path.
 class FieldReader {
  public:
   FieldReader(const nlohmann::json& object, std::string path, std::vector<std::string>& problems)
@@ -72,7 +74,8 @@ class FieldReader {
       return;
     }
     values.fill(T{});
-    for (std::size_t i = 0; i < json.size(); ++i) read(json[i], path + "[" + std::to_string(i) + "]", values[i]);
+    for (std::size_t i = 0; i < json.size(); ++i)
+      read(json[i], path + "[" + std::to_string(i) + "]", values[i]);
   }
 
   template <typename Enum, typename = std::enable_if_t<std::is_enum_v<Enum>>>

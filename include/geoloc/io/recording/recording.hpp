@@ -10,16 +10,17 @@
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"
 
-// A recording is a folder: telemetry.tlog, frames.jsonl, camera.json, and optionally config.json, truth.geojson
-// (docs/formats.md). These are the values that its reader and its writer share.
+// A recording is a folder: telemetry.tlog, frames.jsonl, camera.json, and optionally config.json,
+// truth.geojson (docs/formats.md). These are the values that its reader and its writer share.
 namespace geoloc::io {
 
 /// One line of frames.jsonl.
 struct RecordedFrame {
   HostTime captured_at;  ///< best estimate of the capture time, on the clock of the tlog's stamps
   std::vector<Detection> detections;
-  /// How many records of telemetry.tlog had been taken in when the frame was processed. With it a replay repeats the
-  /// live run exactly; without it (recordings of other tools) the replay reads ahead until the state is known.
+  /// How many records of telemetry.tlog had been taken in when the frame was processed. With it a replay
+  /// repeats the live run exactly; without it (recordings of other tools) the replay reads ahead until the
+  /// state is known.
   std::optional<std::uint64_t> telemetry_records;
 };
 

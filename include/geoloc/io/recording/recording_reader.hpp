@@ -27,8 +27,8 @@ struct Recording {
   std::size_t skipped_lines = 0;
 };
 
-/// Reads the whole folder. Throws std::runtime_error with file, line and reason for a missing file, a bad line, a
-/// number that is not finite, a box of no size, or frame times that run backwards.
+/// Reads the whole folder. Throws std::runtime_error with file, line and reason for a missing file, a bad
+/// line, a number that is not finite, a box of no size, or frame times that run backwards.
 Recording read_recording(const std::filesystem::path& folder, BadLines bad_lines = BadLines::kRefuse);
 
 /// frames.jsonl alone; `name` stands for the file in messages.

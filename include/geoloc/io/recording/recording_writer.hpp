@@ -13,9 +13,9 @@
 
 namespace geoloc::io {
 
-/// Writes a recording. All goes into `<folder>.partial`, which finish() renames to `<folder>`: a recording under its
-/// own name is whole, and one that a power cut ended is still there to be replayed.
-/// Every call throws std::runtime_error, naming the file and the system's reason, when the disk does not take the data.
+/// Writes a recording. All goes into `<folder>.partial`, which finish() renames to `<folder>`: a recording
+/// under its own name is whole, and one that a power cut ended is still there to be replayed. Every call
+/// throws std::runtime_error, naming the file and the system's reason, when the disk does not take the data.
 class RecordingWriter {
  public:
   /// Throws also when `folder` exists already and is not empty.

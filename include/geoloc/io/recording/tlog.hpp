@@ -10,8 +10,8 @@
 
 namespace geoloc::io {
 
-/// One record of a MAVLink log; the bytes live in the Tlog it came from. They are framed, not checked: a frame with a
-/// bad checksum is for the MAVLink decoder to refuse.
+/// One record of a MAVLink log; the bytes live in the Tlog it came from. They are framed, not checked: a
+/// frame with a bad checksum is for the MAVLink decoder to refuse.
 struct TlogRecord {
   HostTime received_at;
   const std::uint8_t* frame;

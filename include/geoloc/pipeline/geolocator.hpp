@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geoloc/camera/detection.hpp"
+#include "geoloc/pipeline/geolocator_config.hpp"
+#include "geoloc/state/state_provider.hpp"
+#include "geoloc/tracking/paper_tracker.hpp"
+
+namespace geoloc {
+
+/// The whole estimator, and the one class that an autopilot links: telemetry and detections in, objects out.
+///
+/// It has no clock, no thread and no lock: one owner calls it, and the same calls give the same bits. It
+/// does not allocate after construction.
+class Geolocator {
+ public:
+  struct Counters {
+    std::uint64_t frames = 0;              ///< given to process()
+    std::uint64_t frames_located = 0;      ///< that had a vehicle state
+    std::uint64_t frames_unusable = 0;     ///< that will never have one
+    std::uint64_t detections = 0;          ///< in located frames
+    std::uint64_t detections_dropped = 0;  ///< beyond max_detections, or with a box that is not finite
+    std::array<std::uint64_t, kNoFixReasons> no_fix{};  ///< detections without a ground point, by NoFix
+  };
+
+  /// Throws std::invalid_argument naming every problem of the configuration.
+  explicit Geolocator(const GeolocatorConfig& config);
+
+  /// Samples may come in any order and at any rate; what cannot be used is counted (state().counters()).
+  void add(const AttitudeSample& sample) { state_.add(sample); }
+  void add(const PositionSample& sample) { state_.add(sample); }
+
+  /// Whether a frame of that time can be processed now (nullopt), or why not. On NoState::kNotYet it is worth
+  /// waiting.
+  std::optional<NoState> missing_state(VehicleTime captured_at) const;
+
+  /// Locates a frame's detections and refines the objects with them. Frames in order of their time. False,
+  /// and counted, where the vehicle's state at the capture time is not known: nothing is guessed. The order
+  /// of the detections does not matter.
+  bool process(const FrameDetections& frame);
+
+  /// All objects, tentative and confirmed, in order of their ids.
+  const std::vector<Track>& tracks() const { return tracker_.tracks(); }
+
+  /// The last located frame: every detection that met the ground, the state and the camera's pose it was
+  /// located with.
+  const std::vector<LocatedDetection>& located() const { return located_; }
+  const VehicleState& vehicle() const { return vehicle_; }
+  const Rigid3d& enu_from_camera() const { return enu_from_camera_; }
+
+  /// The frame of all positions; set by the first position of the vehicle.
+  const std::optional<LocalFrame>& local_frame() const { return state_.local_frame(); }
+
+  const StateProvider& state() const { return state_; }
+  const Projector& projector() const { return projector_; }
+  const PaperTracker& tracker() const { return tracker_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  void select(const std::vector<Detection>& detections);
+  void locate();
+
+  GeolocatorConfig config_;
+  StateProvider state_;
+  Projector projector_;
+  PaperTracker tracker_;
+  VehicleState vehicle_{};
+  Rigid3d enu_from_camera_;
+  std::vector<Detection> selected_;
+  std::vector<LocatedDetection> located_;
+  Counters counters_;
+};
+
+}  // namespace geoloc

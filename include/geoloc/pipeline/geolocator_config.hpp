@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geoloc/camera/camera.hpp"
+#include "geoloc/projection/camera_pose.hpp"
+#include "geoloc/projection/projector.hpp"
+#include "geoloc/state/state_provider.hpp"
+#include "geoloc/tracking/paper_tracker.hpp"
+
+namespace geoloc {
+
+/// How objects are estimated from the fixes.
+enum class Method {
+  kPaper  ///< one Kalman filter an object, every error taken as noise (PaperTracker)
+};
+
+/// Everything a Geolocator can be told: the settings of each of its stages.
+struct GeolocatorConfig {
+  Method method = Method::kPaper;
+  CameraOrientation camera_orientation = CameraOrientation::kComposed;
+  int max_detections = 256;  ///< a frame; of more, the most confident are used
+  CameraConfig camera;
+  StateConfig state;
+  ProjectorConfig projector;
+  PaperTrackerConfig paper;
+
+  /// Every fault at once, named by its JSON path; empty where a Geolocator can be built.
+  std::vector<std::string> problems() const;
+};
+
+}  // namespace geoloc

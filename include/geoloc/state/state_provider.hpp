@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/geometry/rigid3.hpp"
+#include "geoloc/state/boot_clock_monitor.hpp"
+#include "geoloc/state/samples.hpp"
+#include "geoloc/state/state_buffer.hpp"
+
+namespace geoloc {
+
+enum class AttitudeInterpolation {
+  kCircular,  ///< roll, pitch and yaw each by itself (paper, eq. 5)
+  kSlerp      ///< the shortest rotation
+};
+
+struct StateConfig {
+  AttitudeInterpolation attitude_interpolation = AttitudeInterpolation::kSlerp;
+  double max_gap_s = 0.6;              ///< a longer hole in the telemetry gives no state
+  double max_extrapolation_s = 0.005;  ///< beyond the newest sample; more is guessing
+
+  std::vector<std::string> problems() const;
+};
+
+/// Where the vehicle was at one instant.
+struct VehicleState {
+  VehicleTime time;
+  Rigid3d enu_from_body;                     ///< up is the height above home
+  Eigen::Vector3d velocity_in_enu;           ///< [m/s], of the interpolation's segment
+  Eigen::Vector3d angular_velocity_in_body;  ///< [rad/s], of the interpolation's segment
+  std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
+};
+
+/// Position in the local frame with the turn of true north there.
+struct LocalPosition {
+  Eigen::Vector3d position_in_enu = Eigen::Vector3d::Zero();
+  double convergence_rad = 0.0;
+};
+
+template <>
+struct Interpolator<LocalPosition> {
+  static LocalPosition between(const LocalPosition& before, const LocalPosition& after, double alpha) {
+    return {before.position_in_enu + alpha * (after.position_in_enu - before.position_in_enu),
+            before.convergence_rad + alpha * (after.convergence_rad - before.convergence_rad)};
+  }
+};
+
+/// Interpolates the asynchronous position and attitude of the vehicle (paper, section 3.2). The local frame's
+/// origin is the first position. A reboot of the vehicle empties the buffers; the frame stays.
+class StateProvider {
+ public:
+  struct Counters {
+    std::uint64_t attitudes = 0;       ///< taken in
+    std::uint64_t positions = 0;       ///< taken in
+    std::uint64_t duplicates = 0;      ///< same time as a sample before
+    std::uint64_t stale = 0;           ///< older than all that is kept
+    std::uint64_t invalid = 0;         ///< not finite, or no place on Earth
+    std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
+    std::uint64_t suspect_stamps = 0;  ///< far from the others' times
+    std::uint64_t reboots = 0;
+  };
+
+  /// Throws std::invalid_argument naming every problem.
+  explicit StateProvider(const StateConfig& config);
+
+  void add(const AttitudeSample& sample);
+  void add(const PositionSample& sample);
+
+  Expected<VehicleState, NoState> at(VehicleTime time) const;
+
+  /// Set by the first position.
+  const std::optional<LocalFrame>& local_frame() const { return frame_; }
+  Counters counters() const;
+
+ private:
+  bool accept_stamp(VehicleTime stamp);
+
+  StateConfig config_;
+  std::optional<LocalFrame> frame_;
+  StateBuffer<EulerAngles> attitudes_;
+  StateBuffer<LocalPosition> positions_;
+  std::optional<double> sigma_horizontal_m_;
+  BootClockMonitor boot_clock_;
+  Counters counters_;
+};
+
+}  // namespace geoloc

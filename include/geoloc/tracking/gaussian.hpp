@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+namespace geoloc {
+
+/// Horizontal position with its uncertainty: rows and columns are east, north.
+struct Gaussian2 {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();            ///< [m]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m^2]
+};
+
+/// Squared Mahalanobis distance of a residual; covariance positive definite.
+inline double mahalanobis_squared(const Eigen::Vector2d& residual, const Eigen::Matrix2d& covariance) {
+  return residual.dot(covariance.inverse() * residual);
+}
+
+/// Kalman update by a direct measurement of the position (paper, section 4.1), in Joseph's form, which keeps
+/// the covariance symmetric and positive.
+inline Gaussian2 kalman_update(const Gaussian2& prior, const Eigen::Vector2d& measurement,
+                               const Eigen::Matrix2d& measurement_covariance) {
+  const Eigen::Matrix2d innovation_covariance = prior.covariance + measurement_covariance;
+  const Eigen::Matrix2d gain = prior.covariance * innovation_covariance.inverse();
+  const Eigen::Matrix2d rest = Eigen::Matrix2d::Identity() - gain;
+  return {prior.mean + gain * (measurement - prior.mean),
+          rest * prior.covariance * rest.transpose() + gain * measurement_covariance * gain.transpose()};
+}
+
+}  // namespace geoloc

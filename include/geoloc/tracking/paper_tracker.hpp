@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geoloc/camera/detection.hpp"
+#include "geoloc/projection/projector.hpp"
+#include "geoloc/tracking/assignment.hpp"
+#include "geoloc/tracking/track.hpp"
+
+namespace geoloc {
+
+struct PaperTrackerConfig {
+  double measurement_sigma_m = 1.2;  ///< 1-sigma of one fix an axis, calibration errors included (R)
+  double process_sigma_m = 0.01;     ///< 1-sigma an axis added at every update: keeps the filter awake (Q)
+  double gate = 3.0;                 ///< largest Mahalanobis distance (eq. 11) at which a pair is accepted
+  int confirm_hits = 5;              ///< detections that make a tentative track a confirmed one
+  int max_penalty = 15;              ///< a track that reaches it is removed
+  double visible_margin_px =
+      40.0;  ///< nearer to the image's edge a missing detection is not held against a track
+  double merge_distance_m = 1.0;  ///< confirmed tracks that come closer are one object
+  int max_tracks = 2000;          ///< beyond this, new objects are refused and counted
+
+  std::vector<std::string> problems() const;
+};
+
+/// One detection with its place on the ground.
+struct LocatedDetection {
+  Detection detection;
+  GroundFix fix;
+};
+
+/// Spatial refinement as published (paper, section 4): optimal assignment on Mahalanobis distances, one
+/// Kalman filter an object, penalties for objects that should be visible and are not, merging of confirmed
+/// neighbours.
+class PaperTracker {
+ public:
+  struct Counters {
+    std::uint64_t created = 0;
+    std::uint64_t removed = 0;
+    std::uint64_t merged = 0;
+    std::uint64_t refused = 0;  ///< for want of room
+  };
+
+  /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
+  /// given.
+  PaperTracker(const PaperTrackerConfig& config, int max_detections);
+
+  /// One frame: its detections in a canonical order (see Geolocator), the camera's pose, and its time.
+  void update(const std::vector<LocatedDetection>& detections, const Projector& projector,
+              const Rigid3d& enu_from_camera, HostTime captured_at);
+
+  /// Tentative and confirmed, in order of their ids.
+  const std::vector<Track>& tracks() const { return tracks_; }
+  const Counters& counters() const { return counters_; }
+
+ private:
+  void associate(const std::vector<LocatedDetection>& detections);
+  void update_matched(const std::vector<LocatedDetection>& detections, HostTime captured_at);
+  void penalise_missed(const Projector& projector, const Rigid3d& enu_from_camera);
+  void remove_unreliable();
+  void start_tentative(const std::vector<LocatedDetection>& detections, HostTime captured_at);
+  void merge_near_confirmed();
+
+  PaperTrackerConfig config_;
+  Eigen::Matrix2d measurement_covariance_;
+  Eigen::Matrix2d process_covariance_;
+  std::vector<Track> tracks_;
+  AssignmentSolver solver_;
+  Eigen::MatrixXd costs_;                // detections x candidate tracks
+  std::vector<std::size_t> candidates_;  // tracks within the gate of some detection
+  std::vector<int> track_of_detection_;  // index into tracks_, or kUnassigned
+  std::vector<char> track_is_matched_;
+  std::uint64_t next_id_ = 1;
+  Counters counters_;
+};
+
+}  // namespace geoloc

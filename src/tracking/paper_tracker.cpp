@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/tracking/paper_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geoloc/geometry/problems.hpp"
+
+namespace geoloc {
+namespace {
+
+Eigen::Matrix2d isotropic(double sigma_m) {
+  return sigma_m * sigma_m * Eigen::Matrix2d::Identity();
+}
+
+void count_hit(Track& track, const Detection& detection, HostTime captured_at) {
+  ++track.hits;
+  track.confidence_sum += detection.confidence;
+  track.class_votes.add(detection.class_id, detection.confidence);
+  track.last_seen = captured_at;
+}
+
+/// Both filters saw the same object: their estimates are combined, and it keeps its older name.
+void absorb(Track& kept, const Track& gone) {
+  kept.position_in_enu =
+      kalman_update(kept.position_in_enu, gone.position_in_enu.mean, gone.position_in_enu.covariance);
+  kept.hits += gone.hits;
+  kept.confidence_sum += gone.confidence_sum;
+  kept.class_votes.add(gone.class_votes);
+  kept.penalty = std::min(kept.penalty, gone.penalty);
+  kept.first_seen = std::min(kept.first_seen, gone.first_seen);
+  kept.last_seen = std::max(kept.last_seen, gone.last_seen);
+}
+
+}  // namespace
+
+std::vector<std::string> PaperTrackerConfig::problems() const {
+  Problems found;
+  found.require(measurement_sigma_m > 0.0 && measurement_sigma_m <= 1000.0,
+                "paper.measurement_sigma_m must lie in (0, 1000]");
+  found.require(process_sigma_m >= 0.0 && process_sigma_m <= 100.0,
+                "paper.process_sigma_m must lie in [0, 100]");
+  found.require(gate > 0.0 && gate <= 100.0, "paper.gate must lie in (0, 100]");
+  found.require(confirm_hits >= 1, "paper.confirm_hits must be >= 1");
+  found.require(max_penalty >= 1, "paper.max_penalty must be >= 1");
+  found.require(visible_margin_px >= 0.0, "paper.visible_margin_px must be >= 0");
+  found.require(merge_distance_m >= 0.0 && std::isfinite(merge_distance_m),
+                "paper.merge_distance_m must be >= 0");
+  found.require(max_tracks >= 1 && max_tracks <= 100000, "paper.max_tracks must lie in [1, 100000]");
+  return found.take();
+}
+
+PaperTracker::PaperTracker(const PaperTrackerConfig& config, int max_detections)
+    : config_(config),
+      measurement_covariance_(isotropic(config.measurement_sigma_m)),
+      process_covariance_(isotropic(config.process_sigma_m)) {
+  throw_if_any(config.problems());
+  const auto track_capacity = static_cast<std::size_t>(config.max_tracks);
+  tracks_.reserve(track_capacity);
+  candidates_.reserve(track_capacity);
+  track_is_matched_.reserve(track_capacity);
+  track_of_detection_.reserve(static_cast<std::size_t>(max_detections));
+  costs_.resize(max_detections, config.max_tracks);
+  solver_.reserve(max_detections, config.max_tracks);
+}
+
+void PaperTracker::update(const std::vector<LocatedDetection>& detections, const Projector& projector,
+                          const Rigid3d& enu_from_camera, HostTime captured_at) {
+  associate(detections);
+  update_matched(detections, captured_at);
+  penalise_missed(projector, enu_from_camera);
+  start_tentative(detections, captured_at);
+  remove_unreliable();
+  merge_near_confirmed();
+}
+
+void PaperTracker::associate(const std::vector<LocatedDetection>& detections) {
+  const auto rows = static_cast<Eigen::Index>(detections.size());
+  candidates_.clear();
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    const Gaussian2& track = tracks_[k].position_in_enu;
+    const Eigen::Matrix2d information =
+        (track.covariance + measurement_covariance_).inverse();  // S^-1 of eq. 11
+    const auto column = static_cast<Eigen::Index>(candidates_.size());
+    bool within_gate = false;
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      const Eigen::Vector2d residual =
+          detections[static_cast<std::size_t>(i)].fix.position_in_enu - track.mean;
+      costs_(i, column) = std::sqrt(residual.dot(information * residual));
+      within_gate = within_gate || costs_(i, column) < config_.gate;
+    }
+    if (within_gate) candidates_.push_back(k);  // otherwise the next track takes this column
+  }
+
+  const auto& column_of_row =
+      solver_.solve(costs_.topLeftCorner(rows, static_cast<Eigen::Index>(candidates_.size())), config_.gate);
+  track_is_matched_.assign(tracks_.size(), 0);
+  track_of_detection_.assign(detections.size(), AssignmentSolver::kUnassigned);
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    if (column_of_row[i] == AssignmentSolver::kUnassigned) continue;
+    const std::size_t track = candidates_[static_cast<std::size_t>(column_of_row[i])];
+    track_of_detection_[i] = static_cast<int>(track);
+    track_is_matched_[track] = 1;
+  }
+}
+
+void PaperTracker::update_matched(const std::vector<LocatedDetection>& detections, HostTime captured_at) {
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    if (track_of_detection_[i] == AssignmentSolver::kUnassigned) continue;
+    Track& track = tracks_[static_cast<std::size_t>(track_of_detection_[i])];
+    track.position_in_enu =
+        kalman_update(track.position_in_enu, detections[i].fix.position_in_enu, measurement_covariance_);
+    track.position_in_enu.covariance += process_covariance_;
+    track.penalty = std::max(0, track.penalty - 1);
+    count_hit(track, detections[i].detection, captured_at);
+    if (track.hits >= config_.confirm_hits) track.status = TrackStatus::kConfirmed;
+  }
+}
+
+void PaperTracker::penalise_missed(const Projector& projector, const Rigid3d& enu_from_camera) {
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    if (track_is_matched_[k] != 0) continue;
+    if (projector.sees(tracks_[k].position_in_enu.mean, enu_from_camera, config_.visible_margin_px)) {
+      ++tracks_[k].penalty;
+    }
+  }
+}
+
+void PaperTracker::start_tentative(const std::vector<LocatedDetection>& detections, HostTime captured_at) {
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    if (track_of_detection_[i] != AssignmentSolver::kUnassigned) continue;
+    if (tracks_.size() >= static_cast<std::size_t>(config_.max_tracks)) {
+      ++counters_.refused;
+      continue;
+    }
+    Track track;
+    track.id = next_id_++;
+    track.position_in_enu = {detections[i].fix.position_in_enu, measurement_covariance_};
+    track.first_seen = captured_at;
+    count_hit(track, detections[i].detection, captured_at);
+    if (track.hits >= config_.confirm_hits) track.status = TrackStatus::kConfirmed;
+    tracks_.push_back(track);
+    ++counters_.created;
+  }
+}
+
+void PaperTracker::remove_unreliable() {
+  const auto unreliable = [this](const Track& track) { return track.penalty >= config_.max_penalty; };
+  const auto kept_end = std::remove_if(tracks_.begin(), tracks_.end(), unreliable);
+  counters_.removed += static_cast<std::uint64_t>(tracks_.end() - kept_end);
+  tracks_.erase(kept_end, tracks_.end());
+}
+
+void PaperTracker::merge_near_confirmed() {
+  for (std::size_t a = 0; a < tracks_.size(); ++a) {
+    if (tracks_[a].status != TrackStatus::kConfirmed) continue;
+    for (std::size_t b = a + 1; b < tracks_.size();) {
+      const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
+      if (tracks_[b].status == TrackStatus::kConfirmed && apart.norm() < config_.merge_distance_m) {
+        absorb(tracks_[a], tracks_[b]);
+        tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(b));
+        ++counters_.merged;
+      } else {
+        ++b;
+      }
+    }
+  }
+}
+
+}  // namespace geoloc
