@@ -6,28 +6,33 @@
 namespace geoloc {
 namespace {
 
-using std::chrono::hours;
-using std::chrono::seconds;
-
-constexpr Duration kLongestRoundTrip = seconds{1};
+constexpr Duration kLongestRoundTrip = std::chrono::seconds{1};
 /// A round trip this old says nothing new: the window may also reach back over a pause of the link.
-constexpr Duration kLongestMemory = seconds{64};
-constexpr Duration kRoundTripSilence = seconds{30};
+constexpr Duration kLongestMemory = std::chrono::seconds{64};
+constexpr Duration kRoundTripSilence = std::chrono::seconds{30};
 /// What a crowded link may hold every message back; two clocks that differ by more are different clocks.
-constexpr Duration kMaxDisagreement = seconds{2};
+constexpr Duration kMaxDisagreement = std::chrono::seconds{2};
 /// A host clock that runs back by more was set anew; by less, packets changed places.
-constexpr Duration kMaxDisorder = seconds{1};
+constexpr Duration kMaxDisorder = std::chrono::seconds{1};
 
 /// Crystals of two computers differ by 100 ppm at most.
-constexpr Duration largest_drift(Duration elapsed) { return elapsed / 10'000; }
+constexpr Duration largest_drift(Duration elapsed) {
+  return elapsed / 10'000;
+}
 
 // Wide enough for any real clock, narrow enough for differences and sums never to overflow.
+constexpr Duration kYear = std::chrono::hours{24 * 365};
+
 constexpr bool is_sane(HostTime time) {
-  return time.time_since_epoch() >= Duration::zero() && time.time_since_epoch() < hours{24 * 365 * 230};
+  return time.time_since_epoch() >= Duration::zero() && time.time_since_epoch() < 230 * kYear;
 }
 
 constexpr bool is_sane(VehicleTime time) {
-  return time.time_since_epoch() >= Duration::zero() && time.time_since_epoch() < hours{24 * 365 * 20};
+  return time.time_since_epoch() >= Duration::zero() && time.time_since_epoch() < 20 * kYear;
+}
+
+constexpr std::int64_t second_of(HostTime time) {
+  return std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count();
 }
 
 constexpr Duration difference(VehicleTime vehicle, HostTime host) {
@@ -39,9 +44,6 @@ constexpr Duration difference(VehicleTime vehicle, HostTime host) {
 void ArrivalOffset::add(VehicleTime stamp, HostTime received_at) {
   if (received_at < newest_ - kMaxDisorder) clear();
   newest_ = std::max(newest_, received_at);
-  const auto second_of = [](HostTime time) {
-    return std::chrono::duration_cast<seconds>(time.time_since_epoch()).count();
-  };
   const std::int64_t host_s = second_of(received_at);
   const Duration offset = difference(stamp, received_at);
   Second& second = seconds_[static_cast<std::size_t>(host_s) % kWindowSeconds];
@@ -74,8 +76,7 @@ void RoundTripOffset::estimate() {
     best[recent] = trips_[i];
     best[recent++].error_bound += largest_drift(age);
   }
-  offset_.reset();
-  if (recent < kEnough) return;
+  if (!offset_ && recent < kEnough) return;  // once known, a thin window is no reason to give it up
 
   const std::size_t tenth = std::max<std::size_t>(1, recent / 10);
   const auto by_bound = [](const Trip& a, const Trip& b) { return a.error_bound < b.error_bound; };
@@ -92,8 +93,8 @@ void RoundTripOffset::estimate() {
 }
 
 void VehicleClockMap::add_round_trip(HostTime sent_at, VehicleTime remote, HostTime received_at) {
-  const bool is_believable = is_sane(sent_at) && is_sane(remote) && is_sane(received_at) && sent_at < received_at &&
-                             received_at - sent_at <= kLongestRoundTrip &&
+  const bool is_believable = is_sane(sent_at) && is_sane(remote) && is_sane(received_at) &&
+                             sent_at < received_at && received_at - sent_at <= kLongestRoundTrip &&
                              agrees_with_arrivals(difference(remote, received_at));
   if (!is_believable) {
     ++counts_.refused_round_trips;

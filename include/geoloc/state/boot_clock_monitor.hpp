@@ -8,39 +8,39 @@
 namespace geoloc {
 
 /// Tells a reboot of the vehicle (its boot clock goes back) from packets that come late or with a damaged
-/// stamp. One stray stamp proves nothing: a reboot is believed when several consecutive stamps agree on the
-/// new time.
+/// stamp. One stray stamp proves nothing, neither back nor ahead: a jump either way is believed when several
+/// consecutive stamps agree on the new time. After a pause of the link that costs the first two samples.
 class BootClockMonitor {
  public:
   enum class Verdict {
-    kAdvanced,  ///< the newest stamp so far, or late by less than max_lateness: use the sample
+    kAdvanced,  ///< near the newest stamp so far, or a confirmed jump ahead of it: use the sample
     kSuspect,   ///< far from the others and not confirmed: drop the sample
-    kRebooted   ///< confirmed: forget what was known of the old clock, then use the sample
+    kRebooted   ///< a confirmed jump back: forget what was known of the old clock, then use the sample
   };
 
   Verdict observe(VehicleTime stamp) {
-    if (!newest_ || is_plausible(stamp, *newest_)) {
+    if (!newest_ || is_near(stamp, *newest_)) {
       if (!newest_ || stamp > *newest_) newest_ = stamp;
       suspects_ = 0;
       return Verdict::kAdvanced;
     }
-    suspects_ = suspects_ > 0 && is_plausible(stamp, suspect_) ? suspects_ + 1 : 1;
+    suspects_ = suspects_ > 0 && is_near(stamp, suspect_) ? suspects_ + 1 : 1;
     suspect_ = stamp;
     if (suspects_ < kConfirmations) return Verdict::kSuspect;
+    const Verdict verdict = stamp < *newest_ ? Verdict::kRebooted : Verdict::kAdvanced;
     newest_ = stamp;
     suspects_ = 0;
-    return Verdict::kRebooted;
+    return verdict;
   }
 
  private:
-  /// Longer than any link holds a packet back, shorter than an autopilot takes to boot and fly.
-  static constexpr Duration kMaxLateness = std::chrono::seconds{5};
-  /// A link may be silent for long, but a stamp a day ahead is damage.
-  static constexpr Duration kMaxSilence = std::chrono::hours{24};
+  /// Longer than any link holds a packet back, shorter than an autopilot takes to boot and fly. The same both
+  /// ways: a smaller stray step ahead must leave the stamps that follow it near.
+  static constexpr Duration kMaxStep = std::chrono::seconds{5};
   static constexpr int kConfirmations = 3;
 
-  static bool is_plausible(VehicleTime stamp, VehicleTime reference) {
-    return stamp - reference > -kMaxLateness && stamp - reference < kMaxSilence;
+  static bool is_near(VehicleTime stamp, VehicleTime reference) {
+    return stamp - reference > -kMaxStep && stamp - reference < kMaxStep;
   }
 
   std::optional<VehicleTime> newest_;

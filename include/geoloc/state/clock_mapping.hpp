@@ -10,9 +10,9 @@
 
 namespace geoloc {
 
-/// Offset of the vehicle's clock (vehicle - host) from one-way traffic: a stamp arrives late, never early, so the largest
-/// stamp - arrival of the last 15 s lies below the true offset by the link's smallest delay, and by the drift of the two
-/// clocks over those seconds (1.5 ms at 100 ppm).
+/// Offset of the vehicle's clock (vehicle - host) from one-way traffic: a stamp arrives late, never early, so
+/// the largest stamp - arrival of the last 15 s lies below the true offset by the link's smallest delay, and
+/// by the drift of the two clocks over those seconds (1.5 ms at 100 ppm).
 class ArrivalOffset {
  public:
   void add(VehicleTime stamp, HostTime received_at);
@@ -32,13 +32,13 @@ class ArrivalOffset {
   std::optional<Duration> offset_;
 };
 
-/// Offset of the vehicle's clock (vehicle - host) from round trips. One of them is wrong by half its duration at most,
-/// and by what the clocks have drifted since. The tenth of the window whose bounds are lowest is averaged: the clock
-/// filter of NTP (RFC 5905, section 10) over more samples.
+/// Offset of the vehicle's clock (vehicle - host) from round trips. One of them is wrong by half its duration
+/// at most, and by what the clocks have drifted since. The tenth of the window whose bounds are lowest is
+/// averaged: the clock filter of NTP (RFC 5905, section 10) over more samples.
 class RoundTripOffset {
  public:
   void add(HostTime sent_at, VehicleTime remote, HostTime received_at);
-  /// No answer before kEnough round trips.
+  /// No answer before kEnough round trips in a minute.
   std::optional<Duration> offset() const { return offset_; }
   Duration error_bound() const { return error_bound_; }
   HostTime newest() const { return newest_; }
@@ -64,10 +64,10 @@ class RoundTripOffset {
   std::optional<Duration> offset_;
 };
 
-/// Maps the vehicle's boot clock to the host clock and back. Round trips (MAVLink TIMESYNC) rule once there are enough
-/// of them; until then, and after kRoundTripSilence without one, the arrival of stamped messages does. The change
-/// between them is a step of the link's one-way delay, and cannot happen often. Integer nanoseconds, no allocation;
-/// the same calls give the same map.
+/// Maps the vehicle's boot clock to the host clock and back. Round trips (MAVLink TIMESYNC) rule once there
+/// are enough of them; until then, and after kRoundTripSilence without one, the arrival of stamped messages
+/// does. The change between them is a step of the link's one-way delay, and cannot happen often. Integer
+/// nanoseconds, no allocation; the same calls give the same map.
 class VehicleClockMap {
  public:
   enum class Source { kNone, kArrival, kRoundTrip };
@@ -79,13 +79,14 @@ class VehicleClockMap {
     std::uint64_t refused_arrivals = 0;
   };
 
-  /// A request left at `sent_at`, the vehicle read its clock as `remote`, the answer came at `received_at`. Refused: a
-  /// trip that took no time, less or more than a second; times no clock shows; a clock that is not the one of the
-  /// stamped messages. The error is half the trip at most (on a link with unequal ways it is half their difference).
+  /// A request left at `sent_at`, the vehicle read its clock as `remote`, the answer came at `received_at`.
+  /// Refused: a trip that took no time, less or more than a second; times no clock shows; a clock that is not
+  /// the one of the stamped messages. The error is half the trip at most (on a link with unequal ways it is
+  /// half their difference).
   void add_round_trip(HostTime sent_at, VehicleTime remote, HostTime received_at);
 
-  /// A message that the vehicle stamped `stamp` came at `received_at`. Stamps are to be checked for reboots beforehand
-  /// (BootClockMonitor).
+  /// A message that the vehicle stamped `stamp` came at `received_at`. Stamps are to be checked for reboots
+  /// beforehand (BootClockMonitor).
   void add_arrival(VehicleTime stamp, HostTime received_at);
 
   /// nullopt before the first message, and for a time beyond any clock.
