@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace geoloc {
+
+/// How well a run found the targets (docs/formats.md, scoring).
+struct Score {
+  int targets = 0;
+  int objects = 0;
+  int found = 0;                      ///< targets with an object of their own within 3 m
+  int extra = 0;                      ///< objects without a target
+  int merged_pairs = 0;               ///< a target without an object beside one whose object stands for both
+  double rmse_m = 0.0;                ///< over the targets found; 0 where there is none
+  double relative_rmse_m = 0.0;       ///< the same with the run's mean offset removed
+  std::vector<int> target_of_object;  ///< index, or -1
+};
+
+/// Objects are matched one-to-one to targets at minimum total distance; pairs over 3 m do not count. East,
+/// north [m].
+Score score_objects(const std::vector<Eigen::Vector2d>& objects, const std::vector<Eigen::Vector2d>& targets);
+
+}  // namespace geoloc

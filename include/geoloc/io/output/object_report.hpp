@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/pipeline/geolocator.hpp"
+
+namespace geoloc::io {
+
+/// 1-sigma ellipse of a horizontal position.
+struct ErrorEllipse {
+  double sigma_major_m = 0.0;
+  double sigma_minor_m = 0.0;
+  double azimuth_deg = 0.0;  ///< of the major axis, from true north, clockwise, in [0, 180)
+};
+
+ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance);
+
+/// What every output says of a confirmed object.
+struct ObjectReport {
+  std::uint64_t id = 0;
+  int class_id = 0;
+  std::string class_name;
+  double confidence = 0.0;
+  int hits = 0;
+  HostTime first_seen;
+  HostTime last_seen;
+  Geodetic position;
+  Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();
+  ErrorEllipse ellipse;
+};
+
+/// The confirmed objects in order of their ids. A class without a name is called by its number.
+std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
+                                         const std::vector<std::string>& class_names);
+
+/// UTC, ISO 8601 with milliseconds: 2026-11-22T09:30:00.123Z.
+std::string iso8601(HostTime time);
+
+}  // namespace geoloc::io

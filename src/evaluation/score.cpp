@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/evaluation/score.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geoloc/tracking/assignment.hpp"
+
+namespace geoloc {
+namespace {
+
+constexpr double kFarthestMatch_m = 3.0;
+
+double root_mean_square(const std::vector<Eigen::Vector2d>& errors, const Eigen::Vector2d& offset) {
+  double sum = 0.0;
+  for (const Eigen::Vector2d& error : errors) sum += (error - offset).squaredNorm();
+  return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
+}
+
+/// Targets that were not found although a neighbour within reach was: its object took the detections of both.
+int count_merged_pairs(const std::vector<Eigen::Vector2d>& targets, const std::vector<char>& is_found) {
+  int pairs = 0;
+  for (std::size_t lost = 0; lost < targets.size(); ++lost) {
+    if (is_found[lost] != 0) continue;
+    for (std::size_t other = 0; other < targets.size(); ++other) {
+      if (is_found[other] != 0 && (targets[lost] - targets[other]).norm() <= kFarthestMatch_m) {
+        ++pairs;
+        break;
+      }
+    }
+  }
+  return pairs;
+}
+
+}  // namespace
+
+Score score_objects(const std::vector<Eigen::Vector2d>& objects,
+                    const std::vector<Eigen::Vector2d>& targets) {
+  Eigen::MatrixXd distances(static_cast<Eigen::Index>(objects.size()),
+                            static_cast<Eigen::Index>(targets.size()));
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (std::size_t j = 0; j < targets.size(); ++j) {
+      distances(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          (objects[i] - targets[j]).norm();
+    }
+  }
+  AssignmentSolver solver;
+  Score score;
+  score.target_of_object = solver.solve(distances, kFarthestMatch_m);
+  score.targets = static_cast<int>(targets.size());
+  score.objects = static_cast<int>(objects.size());
+
+  std::vector<Eigen::Vector2d> errors;
+  std::vector<char> is_found(targets.size(), 0);
+  Eigen::Vector2d offset = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const int target = score.target_of_object[i];
+    if (target == AssignmentSolver::kUnassigned) continue;
+    is_found[static_cast<std::size_t>(target)] = 1;
+    errors.push_back(objects[i] - targets[static_cast<std::size_t>(target)]);
+    offset += errors.back();
+  }
+  score.found = static_cast<int>(errors.size());
+  score.extra = score.objects - score.found;
+  score.merged_pairs = count_merged_pairs(targets, is_found);
+  score.rmse_m = root_mean_square(errors, Eigen::Vector2d::Zero());
+  if (!errors.empty())
+    score.relative_rmse_m = root_mean_square(errors, offset / static_cast<double>(errors.size()));
+  return score;
+}
+
+}  // namespace geoloc

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/output/geojson.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace geoloc::io {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Shortest decimal that reads back as the value to `digits` places, so that text stays short and stable.
+double decimals(double value, int digits) {
+  const double scale = std::pow(10.0, digits);
+  return std::round(value * scale) / scale;
+}
+
+ordered_json to_feature(const ObjectReport& object) {
+  const ordered_json coordinates{decimals(object.position.longitude_deg, 9),
+                                 decimals(object.position.latitude_deg, 9)};
+  return {{"type", "Feature"},
+          {"geometry", {{"type", "Point"}, {"coordinates", coordinates}}},
+          {"properties",
+           {{"id", object.id},
+            {"class_id", object.class_id},
+            {"class_name", object.class_name},
+            {"confidence", decimals(object.confidence, 3)},
+            {"hits", object.hits},
+            {"first_seen", iso8601(object.first_seen)},
+            {"last_seen", iso8601(object.last_seen)},
+            {"sigma_major_m", decimals(object.ellipse.sigma_major_m, 4)},
+            {"sigma_minor_m", decimals(object.ellipse.sigma_minor_m, 4)},
+            {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)}}}};
+}
+
+ordered_json to_counters(const Geolocator& geolocator) {
+  const auto& frames = geolocator.counters();
+  const auto telemetry = geolocator.state().counters();
+  const auto& tracks = geolocator.tracker().counters();
+  std::uint64_t without_fix = 0;
+  for (const std::uint64_t count : frames.no_fix) without_fix += count;
+  return {{"frames", frames.frames},
+          {"frames_located", frames.frames_located},
+          {"frames_unusable", frames.frames_unusable},
+          {"detections", frames.detections},
+          {"detections_without_fix", without_fix},
+          {"attitudes", telemetry.attitudes},
+          {"positions", telemetry.positions},
+          {"reboots", telemetry.reboots},
+          {"tracks_created", tracks.created},
+          {"tracks_removed", tracks.removed},
+          {"tracks_merged", tracks.merged}};
+}
+
+}  // namespace
+
+std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const Geolocator& geolocator) {
+  auto features = ordered_json::array();
+  for (const ObjectReport& object : objects) features.push_back(to_feature(object));
+  const ordered_json collection{{"type", "FeatureCollection"},
+                                {"method", "paper"},
+                                {"calibration", nullptr},
+                                {"counters", to_counters(geolocator)},
+                                {"features", std::move(features)}};
+  // Class names come from models and may hold anything; bytes that are not UTF-8 are replaced.
+  return collection.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace geoloc::io

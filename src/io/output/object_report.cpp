@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/output/object_report.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc::io {
+
+ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(covariance);
+  const Eigen::Vector2d major = axes.eigenvectors().col(1);
+  double azimuth_deg = std::atan2(major.x(), major.y()) * kDegPerRad;
+  if (azimuth_deg < 0.0) azimuth_deg += 180.0;
+  if (azimuth_deg >= 180.0) azimuth_deg -= 180.0;
+  return {std::sqrt(std::max(0.0, axes.eigenvalues()[1])), std::sqrt(std::max(0.0, axes.eigenvalues()[0])),
+          azimuth_deg};
+}
+
+std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
+                                         const std::vector<std::string>& class_names) {
+  std::vector<ObjectReport> reports;
+  for (const Track& track : geolocator.tracks()) {
+    if (track.status != TrackStatus::kConfirmed) continue;
+    ObjectReport report;
+    report.id = track.id;
+    report.class_id = track.class_id();
+    const auto name = static_cast<std::size_t>(report.class_id);
+    report.class_name =
+        name < class_names.size() ? class_names[name] : "class " + std::to_string(report.class_id);
+    report.confidence = track.confidence();
+    report.hits = track.hits;
+    report.first_seen = track.first_seen;
+    report.last_seen = track.last_seen;
+    report.position_in_enu = track.position_in_enu.mean;
+    report.position = geolocator.local_frame()->to_geodetic(report.position_in_enu);
+    report.ellipse = error_ellipse(track.position_in_enu.covariance);
+    reports.push_back(report);
+  }
+  return reports;
+}
+
+std::string iso8601(HostTime time) {
+  const auto since_epoch = std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch());
+  const auto whole_seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);
+  const auto seconds_since_epoch = static_cast<std::time_t>(whole_seconds.count());
+  std::tm utc{};
+  gmtime_r(&seconds_since_epoch, &utc);
+  std::array<char, 32> date{};
+  std::strftime(date.data(), date.size(), "%Y-%m-%dT%H:%M:%S", &utc);
+  std::array<char, 8> milliseconds{};
+  std::snprintf(milliseconds.data(), milliseconds.size(), ".%03dZ",
+                static_cast<int>((since_epoch - whole_seconds).count()));
+  return std::string(date.data()) + milliseconds.data();
+}
+
+}  // namespace geoloc::io
