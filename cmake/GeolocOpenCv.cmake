@@ -1,9 +1,10 @@
 # opencv_core, opencv_imgproc, … as targets. OpenCV's own CMake package where there is one; otherwise the libraries
 # themselves: Debian's narrow packages (libopencv-dnn-dev …) are a fraction of libopencv-dev, which alone has the package.
-include_guard(GLOBAL)
+# In every folder that uses it: what the package imports is known there only.
+include_guard(DIRECTORY)
 set(_components core imgproc imgcodecs calib3d dnn)
 find_package(OpenCV 4.5 QUIET COMPONENTS ${_components})
-if(NOT OpenCV_FOUND)
+if(NOT OpenCV_FOUND AND NOT TARGET opencv_core)
   find_path(GEOLOC_OPENCV_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
   foreach(_component IN LISTS _components)
     find_library(GEOLOC_OPENCV_${_component} opencv_${_component})

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "images_mode.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "geoloc/sim/labelled_images.hpp"
+
+namespace geoloc::sim {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;  // a signal handler reaches nothing but a global
+
+void interrupt(int /*signal*/) {
+  interrupted = 1;
+}
+
+}  // namespace
+
+CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options) {
+  CLI::Option* const images =
+      program.add_option("--images", options.count, "Write this many labelled pictures");
+  images->check(CLI::Range(1, 1000000))->group("Labelled pictures");
+  CLI::Option* const out = program.add_option("--out", options.folder, "New folder for them");
+  out->group("Labelled pictures");
+  images->needs(out);
+  program.add_option("--seed", options.seed, "Seed of all that is random")->capture_default_str();
+  return images;
+}
+
+int run_images_mode(const ImagesOptions& options) {
+  if (std::filesystem::exists(options.folder)) {
+    std::fprintf(stderr, "geoloc_sim: --out %s exists already; name a new folder\n", options.folder.c_str());
+    return 2;
+  }
+  std::signal(SIGINT, interrupt);
+  std::signal(SIGTERM, interrupt);
+  const auto progress = [&](int done) {
+    if (done % 10 == 0 || done == options.count)
+      std::fprintf(stderr, "\r%d / %d pictures", done, options.count);
+    return interrupted == 0;
+  };
+  try {
+    const bool whole = write_labelled_images(options.count, options.seed, options.folder, progress);
+    std::fputs(whole ? "\n" : "\ninterrupted; nothing is left behind\n", stderr);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "\ngeoloc_sim: %s\n", error.what());
+    return 1;
+  }
+}
+
+}  // namespace geoloc::sim

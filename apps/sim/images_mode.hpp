@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+namespace geoloc::sim {
+
+struct ImagesOptions {
+  int count = 0;
+  std::string folder;
+  std::uint64_t seed = 1;
+};
+
+/// Adds --images, --out and --seed; returns the one that chooses this mode.
+CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options);
+
+/// Writes the labelled pictures; the program's exit status.
+int run_images_mode(const ImagesOptions& options);
+
+}  // namespace geoloc::sim

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "ground_grain.hpp"
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "geoloc/geometry/angles.hpp"
+#include "periodic_noise.hpp"
+
+namespace geoloc::sim {
+namespace {
+
+constexpr int kShift = 4;  // fractional bits of the drawing functions' coordinates
+
+struct Canvas {
+  cv::Mat light;  // CV_32FC1, 1 = neutral
+  double texel_m;
+  cv::RNG& random;
+
+  int size() const { return light.cols; }
+  float uniform(double low, double high) { return static_cast<float>(random.uniform(low, high)); }
+  float texels(double length_m) const { return static_cast<float>(length_m / texel_m); }
+  cv::Point2f anywhere() { return {uniform(0, size()), uniform(0, size())}; }
+};
+
+cv::Point fixed(cv::Point2f point) {
+  return point * static_cast<float>(1 << kShift);
+}
+
+/// Blades and stalks: short strokes, lighter and darker.
+void add_blades(Canvas& canvas, int count, double length_m, double contrast) {
+  for (int i = 0; i < count; ++i) {
+    const float angle = canvas.uniform(0, kPi);
+    const float half = 0.5f * canvas.texels(length_m) * canvas.uniform(0.4, 1.2);
+    const cv::Point2f along(half * std::cos(angle), half * std::sin(angle));
+    const double shade = 1.0 + contrast * canvas.uniform(-1.0, 1.0);
+    draw_periodic(canvas.size(), canvas.anywhere(), half, [&](cv::Point2f at) {
+      cv::line(canvas.light, fixed(at - along), fixed(at + along), shade, 1, cv::LINE_8, kShift);
+    });
+  }
+}
+
+/// Stones with a shadow on one side.
+void add_stones(Canvas& canvas, int count, double least_m, double most_m, double contrast) {
+  for (int i = 0; i < count; ++i) {
+    const double skewed = std::pow(canvas.uniform(0, 1), 3.0);  // many small, few large
+    const float radius = 0.5f * canvas.texels(least_m + (most_m - least_m) * skewed);
+    const cv::Size axes = fixed({radius, radius * canvas.uniform(0.6, 1.0)});
+    const double turn_deg = canvas.uniform(0, 180);
+    const double shade = 1.0 + contrast * canvas.uniform(-0.8, 1.0);
+    const cv::Point2f away_from_sun = cv::Point2f(0.35f, 0.35f) * radius;
+    draw_periodic(canvas.size(), canvas.anywhere(), 2.0f * radius, [&](cv::Point2f at) {
+      cv::ellipse(canvas.light, fixed(at + away_from_sun), axes, turn_deg, 0, 360, 0.55, -1, cv::LINE_8,
+                  kShift);
+      cv::ellipse(canvas.light, fixed(at), axes, turn_deg, 0, 360, shade, -1, cv::LINE_8, kShift);
+    });
+  }
+}
+
+/// Dark lines that wander, as cracks in a pavement do.
+void add_cracks(Canvas& canvas, int count, double length_m) {
+  for (int i = 0; i < count; ++i) {
+    cv::Point2f at = canvas.anywhere();
+    float heading = canvas.uniform(0, 2 * kPi);
+    const float step = canvas.texels(0.08);
+    const int steps = static_cast<int>(length_m * canvas.uniform(0.3, 1.0) / 0.08);
+    for (int k = 0; k < steps; ++k) {
+      heading += canvas.uniform(-0.45, 0.45);
+      const cv::Point2f next = at + step * cv::Point2f(std::cos(heading), std::sin(heading));
+      const cv::Point2f move = next - at;
+      draw_periodic(canvas.size(), at, 2.0f * step, [&](cv::Point2f from) {
+        cv::line(canvas.light, fixed(from), fixed(from + move), 0.5, 1, cv::LINE_8, kShift);
+      });
+      at = next;
+      at.x -= static_cast<float>(canvas.size()) * std::floor(at.x / static_cast<float>(canvas.size()));
+      at.y -= static_cast<float>(canvas.size()) * std::floor(at.y / static_cast<float>(canvas.size()));
+    }
+  }
+}
+
+/// Slab joints, `slabs` of them along each side of the tile.
+void add_joints(Canvas& canvas, int slabs) {
+  const int pitch = canvas.size() / slabs;
+  for (int i = 0; i < slabs; ++i) {
+    canvas.light.colRange(i * pitch, i * pitch + 2).setTo(0.6);
+    canvas.light.rowRange(i * pitch, i * pitch + 2).setTo(0.6);
+  }
+}
+
+/// A wave along one axis, bent by noise: ripples in sand, rows of a field. Values in -1..1.
+cv::Mat wave(Canvas& canvas, int waves, double bend) {
+  const cv::Mat phase = fractal_noise(canvas.size(), 16, 64, 0.5, canvas.random);
+  cv::Mat result(phase.size(), CV_32FC1);
+  const double per_texel = 2.0 * kPi * waves / canvas.size();
+  for (int row = 0; row < result.rows; ++row) {
+    for (int column = 0; column < result.cols; ++column) {
+      const double angle = per_texel * row + bend * static_cast<double>(phase.at<float>(row, column));
+      result.at<float>(row, column) = static_cast<float>(std::sin(angle));
+    }
+  }
+  return result;
+}
+
+/// Fractal roughness: contrast is its standard deviation, persistence near 1 stresses the finest grains.
+void roughen(Canvas& canvas, double contrast, double persistence) {
+  const cv::Mat noise = fractal_noise(canvas.size(), 16, canvas.size() / 2, persistence, canvas.random);
+  cv::multiply(canvas.light, 1.0 + contrast * noise, canvas.light);
+}
+
+/// Three channels of the light, with a little colour noise; gain says how each channel follows `tint` in
+/// -1..1.
+cv::Mat coloured(Canvas& canvas, const cv::Mat& tint, const cv::Vec3d& gain, double hue_noise) {
+  std::array<cv::Mat, 3> channels;
+  for (int k = 0; k < 3; ++k) {
+    const cv::Mat hue = fractal_noise(canvas.size(), 32, 256, 0.7, canvas.random);
+    cv::Mat factor = 1.0 + hue_noise * hue;
+    if (!tint.empty()) factor += gain[k] * tint;
+    channels[static_cast<std::size_t>(k)] = canvas.light.mul(factor);
+    channels[static_cast<std::size_t>(k)] /= cv::mean(channels[static_cast<std::size_t>(k)])[0];
+  }
+  cv::Mat merged;
+  cv::merge(channels, merged);
+  return merged;
+}
+
+}  // namespace
+
+cv::Mat ground_grain(GroundStyle style, int size, double texel_m, cv::RNG& random) {
+  Canvas canvas{cv::Mat(size, size, CV_32FC1, cv::Scalar(1.0)), texel_m, random};
+  const double area = std::pow(size * texel_m, 2.0);  // [m^2]
+  const auto a_square_metre = [&](double count) { return static_cast<int>(count * area); };
+  switch (style) {
+    case GroundStyle::kGrass:
+      add_blades(canvas, a_square_metre(500), 0.10, 0.55);
+      roughen(canvas, 0.22, 0.8);
+      return coloured(canvas, {}, {}, 0.05);
+    case GroundStyle::kDryGrass:
+      add_blades(canvas, a_square_metre(350), 0.14, 0.45);
+      add_stones(canvas, a_square_metre(2), 0.02, 0.08, 0.3);
+      roughen(canvas, 0.2, 0.75);
+      return coloured(canvas, {}, {}, 0.05);
+    case GroundStyle::kSoil:
+      add_stones(canvas, a_square_metre(25), 0.015, 0.10, 0.35);
+      roughen(canvas, 0.16, 0.8);
+      return coloured(canvas, {}, {}, 0.02);
+    case GroundStyle::kSand:
+      add_stones(canvas, a_square_metre(0.5), 0.02, 0.08, 0.3);
+      roughen(canvas, 0.05, 0.85);
+      return coloured(canvas, wave(canvas, 128, 2.5), {0.04, 0.035, 0.03}, 0.01);
+    case GroundStyle::kGravel:
+      add_stones(canvas, a_square_metre(420), 0.02, 0.08, 0.4);
+      roughen(canvas, 0.1, 0.8);
+      return coloured(canvas, {}, {}, 0.03);
+    case GroundStyle::kAsphalt:
+      add_cracks(canvas, a_square_metre(0.05), 6.0);
+      roughen(canvas, 0.13, 1.0);
+      return coloured(canvas, {}, {}, 0.01);
+    case GroundStyle::kConcrete:
+      add_joints(canvas, 8);
+      add_cracks(canvas, a_square_metre(0.02), 2.5);
+      roughen(canvas, 0.06, 0.8);
+      return coloured(canvas, {}, {}, 0.01);
+    case GroundStyle::kField:
+      add_blades(canvas, a_square_metre(200), 0.15, 0.5);
+      add_stones(canvas, a_square_metre(6), 0.02, 0.08, 0.3);
+      roughen(canvas, 0.2, 0.75);
+      return coloured(canvas, wave(canvas, 32, 0.5), {-0.12, 0.12, -0.18}, 0.04);
+  }
+  return coloured(canvas, {}, {}, 0.0);
+}
+
+}  // namespace geoloc::sim
