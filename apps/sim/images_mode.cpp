@@ -26,11 +26,10 @@ CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options) {
   CLI::Option* const out = program.add_option("--out", options.folder, "New folder for them");
   out->group("Labelled pictures");
   images->needs(out);
-  program.add_option("--seed", options.seed, "Seed of all that is random")->capture_default_str();
   return images;
 }
 
-int run_images_mode(const ImagesOptions& options) {
+int run_images_mode(const ImagesOptions& options, std::uint64_t seed) {
   if (std::filesystem::exists(options.folder)) {
     std::fprintf(stderr, "geoloc_sim: --out %s exists already; name a new folder\n", options.folder.c_str());
     return 2;
@@ -43,7 +42,7 @@ int run_images_mode(const ImagesOptions& options) {
     return interrupted == 0;
   };
   try {
-    const bool whole = write_labelled_images(options.count, options.seed, options.folder, progress);
+    const bool whole = write_labelled_images(options.count, seed, options.folder, progress);
     std::fputs(whole ? "\n" : "\ninterrupted; nothing is left behind\n", stderr);
     return 0;
   } catch (const std::exception& error) {

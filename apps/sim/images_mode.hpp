@@ -10,13 +10,12 @@ namespace geoloc::sim {
 struct ImagesOptions {
   int count = 0;
   std::string folder;
-  std::uint64_t seed = 1;
 };
 
-/// Adds --images, --out and --seed; returns the one that chooses this mode.
+/// Adds --images and --out; returns the one that chooses this mode.
 CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options);
 
 /// Writes the labelled pictures; the program's exit status.
-int run_images_mode(const ImagesOptions& options);
+int run_images_mode(const ImagesOptions& options, std::uint64_t seed);
 
 }  // namespace geoloc::sim

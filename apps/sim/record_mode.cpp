@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record_mode.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "geoloc/geometry/problems.hpp"
+#include "geoloc/sim/recording_generator.hpp"
+
+namespace geoloc::sim {
+
+CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
+  DetectorModel& detector = options.detector;
+  const auto add = [&program](const char* name, auto& value, const char* help) {
+    return program.add_option(name, value, help)->group("Recording without video");
+  };
+  CLI::Option* const record = add("--record", options.folder, "Write a recording into this new folder");
+  add("--pixel-noise", detector.pixel_noise_px, "1-sigma of a box's centre, px")->capture_default_str();
+  add("--miss-rate", detector.miss_rate, "Share of the visible targets not found")->capture_default_str();
+  add("--clutter-rate", detector.clutter_rate, "Share of the frames with a false box")->capture_default_str();
+  add("--target-size-m", detector.target_size_m, "Diameter of a target, m")->capture_default_str();
+  add("--min-visible-fraction", detector.min_visible_fraction, "Of a box that is found, in the image")
+      ->capture_default_str();
+  return record;
+}
+
+int run_record_mode(const RunOptions& run, const RecordOptions& options, std::uint64_t seed) {
+  const auto fail = [](const std::exception& error, int status) {
+    std::fprintf(stderr, "geoloc_sim: %s\n", error.what());
+    return status;
+  };
+  RecordingSettings settings;
+  std::optional<Flight> flight;
+  try {
+    settings = {to_settings(run, seed), options.detector};
+    throw_if_any(settings.problems());
+    if (std::filesystem::exists(options.folder)) {
+      throw std::invalid_argument("--record " + options.folder + ": exists already; name a new folder");
+    }
+    flight = load_flight(run);
+    run_span(settings.run, flight->truth);  // refuses times outside the flight
+  } catch (const std::exception& error) {
+    return fail(error, 2);
+  }
+  try {
+    write_recording(options.folder, *flight, settings);
+  } catch (const std::exception& error) {
+    return fail(error, 1);
+  }
+  std::fprintf(stderr, "%s: flight %s, scenario %d, seed %llu\n", options.folder.c_str(),
+               flight->name.c_str(), settings.run.scenario, static_cast<unsigned long long>(seed));
+  return 0;
+}
+
+}  // namespace geoloc::sim

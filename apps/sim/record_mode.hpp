@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <string>
+
+#include "geoloc/sim/simulated_detector.hpp"
+#include "run_options.hpp"
+
+namespace geoloc::sim {
+
+struct RecordOptions {
+  std::string folder;
+  DetectorModel detector;
+};
+
+/// Adds --record and the noise model's options; returns the one that chooses this mode.
+CLI::Option* add_record_options(CLI::App& program, RecordOptions& options);
+
+/// Writes a recording without video; the program's exit status.
+int run_record_mode(const RunOptions& run, const RecordOptions& options, std::uint64_t seed);
+
+}  // namespace geoloc::sim

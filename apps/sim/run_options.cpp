@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run_options.hpp"
+
+#include <filesystem>
+
+#include "geoloc/geometry/problems.hpp"
+
+namespace geoloc::sim {
+
+void add_run_options(CLI::App& program, RunOptions& options) {
+  RunSettings& settings = options.settings;
+  CameraErrors& errors = settings.errors;
+  const auto add = [&program](const char* group, const char* name, auto& value, const char* help) {
+    return program.add_option(name, value, help)->group(group);
+  };
+  constexpr const char* kFlight = "Flight (recordings and live)";
+  add(kFlight, "--flight", options.flight, "Name of the flight; an unknown one lists them")
+      ->capture_default_str();
+  add(kFlight, "--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
+  add(kFlight, "--scenario", settings.scenario, "Targets: 1 spread, 2 tight clusters, 3 grid")
+      ->capture_default_str();
+  add(kFlight, "--start-s", settings.start_s, "Begin, s on the vehicle's clock [at survey height]");
+  add(kFlight, "--end-s", settings.end_s, "End, s on the vehicle's clock [survey height left]");
+
+  constexpr const char* kCamera = "Camera (recordings and live)";
+  add(kCamera, "--frame-rate", settings.frame_rate_hz, "Frames a second")->capture_default_str();
+  add(kCamera, "--fov-deg", options.horizontal_fov_deg, "Horizontal field of view, deg")
+      ->capture_default_str();
+  add(kCamera, "--mount-pitch-deg", settings.camera.mount.pitch_deg, "Nominal mount; -90 looks down, deg")
+      ->capture_default_str();
+  add(kCamera, "--distortion", options.distortion, "True lens: k1 k2 p1 p2 k3 [none]");
+  program
+      .add_flag("--uncalibrated-lens", options.uncalibrated_lens, "Leave the distortion out of camera.json")
+      ->group(kCamera);
+
+  constexpr const char* kHidden = "Errors the estimator is not told (recordings and live)";
+  add(kHidden, "--latency-s", errors.latency_s, "Frame stamp minus exposure, s")->capture_default_str();
+  add(kHidden, "--jitter-s", errors.latency_jitter_s, "1-sigma of the latency, per frame, s")
+      ->capture_default_str();
+  CLI::Option* const sigma = add(kHidden, "--mount-sigma-deg", errors.mount_sigma_deg,
+                                 "1-sigma of the mounting error, per axis, deg")
+                                 ->capture_default_str();
+  add(kHidden, "--mount-error-deg", errors.mount_error_deg, "Mounting error about forward, right, down, deg")
+      ->excludes(sigma);
+}
+
+RunSettings to_settings(const RunOptions& options, std::uint64_t seed) {
+  RunSettings settings = options.settings;
+  settings.seed = seed;
+  const double fov_deg = options.horizontal_fov_deg;
+  if (!(fov_deg > 0.0 && fov_deg < 170.0)) throw std::invalid_argument("--fov-deg must lie in (0, 170)");
+  settings.camera.intrinsics = CameraIntrinsics::from_field_of_view(1280, 720, fov_deg);
+  settings.camera.intrinsics.distortion = options.distortion;
+  settings.errors.lens_is_calibrated = !options.uncalibrated_lens;
+  throw_if_any(settings.problems());
+  return settings;
+}
+
+Flight load_flight(const RunOptions& options) {
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  return load_flight(find_flights(options.data_folder, program), options.flight);
+}
+
+}  // namespace geoloc::sim

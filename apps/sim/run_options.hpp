@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+#include "geoloc/sim/flight.hpp"
+#include "geoloc/sim/run_settings.hpp"
+
+namespace geoloc::sim {
+
+/// What recordings and live runs are chosen by.
+struct RunOptions {
+  std::string flight = "stock_path1";
+  std::optional<std::string> data_folder;
+  double horizontal_fov_deg = 70.0;
+  std::array<double, 5> distortion{};
+  bool uncalibrated_lens = false;
+  RunSettings settings;
+};
+
+void add_run_options(CLI::App& program, RunOptions& options);
+
+/// The options as settings, the seed given apart. Throws std::invalid_argument naming every problem.
+RunSettings to_settings(const RunOptions& options, std::uint64_t seed);
+
+/// Throws std::runtime_error that says where flights were looked for, or which there are.
+Flight load_flight(const RunOptions& options);
+
+}  // namespace geoloc::sim
