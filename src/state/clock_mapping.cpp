@@ -94,7 +94,7 @@ void RoundTripOffset::estimate() {
 
 void VehicleClockMap::add_round_trip(HostTime sent_at, VehicleTime remote, HostTime received_at) {
   const bool is_believable = is_sane(sent_at) && is_sane(remote) && is_sane(received_at) &&
-                             sent_at < received_at && received_at - sent_at <= kLongestRoundTrip &&
+                             sent_at <= received_at && received_at - sent_at <= kLongestRoundTrip &&
                              agrees_with_arrivals(difference(remote, received_at));
   if (!is_believable) {
     ++counts_.refused_round_trips;

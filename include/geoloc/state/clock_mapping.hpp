@@ -80,9 +80,9 @@ class VehicleClockMap {
   };
 
   /// A request left at `sent_at`, the vehicle read its clock as `remote`, the answer came at `received_at`.
-  /// Refused: a trip that took no time, less or more than a second; times no clock shows; a clock that is not
-  /// the one of the stamped messages. The error is half the trip at most (on a link with unequal ways it is
-  /// half their difference).
+  /// The error is half the trip at most, and half the difference of the two ways in fact. Refused: a trip
+  /// that ran backwards or took more than a second; times that no clock shows; a clock that is not the one of
+  /// the stamped messages.
   void add_round_trip(HostTime sent_at, VehicleTime remote, HostTime received_at);
 
   /// A message that the vehicle stamped `stamp` came at `received_at`. Stamps are to be checked for reboots

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/frame.hpp"
+#include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/io/mavlink/stream_requests.hpp"
+#include "geoloc/state/clock_mapping.hpp"
+
+namespace geoloc::io {
+
+/// What became of the vehicle's messages.
+struct TelemetryCounts {
+  std::uint64_t vehicle_frames = 0;
+  std::uint64_t foreign_frames = 0;  ///< of other systems and components, and all before a vehicle was heard
+  std::uint64_t attitudes = 0;       ///< delivered
+  std::uint64_t positions = 0;       ///< delivered
+  std::uint64_t second_attitudes = 0;  ///< ATTITUDE_QUATERNION beside ATTITUDE: left out
+  std::uint64_t no_fix_positions = 0;  ///< of a vehicle that did not know where it was: left out
+  std::uint64_t refused_values = 0;    ///< not finite, or out of range
+  std::uint64_t suspect_stamps = 0;    ///< far from the times around them
+  std::uint64_t reboots = 0;
+  std::uint64_t foreign_timesyncs = 0;  ///< requests, and answers to others
+};
+
+/// A VehicleLink at one moment.
+struct LinkStatus {
+  std::optional<MavAddress> vehicle;     ///< nullopt until an autopilot was heard
+  bool is_v2 = false;                    ///< the vehicle's last frame
+  std::optional<std::uint8_t> fix_type;  ///< GPS_FIX_TYPE, where the vehicle sends it
+  double attitude_rate_hz = 0.0;         ///< delivered, over the last three seconds
+  double position_rate_hz = 0.0;
+  std::optional<Duration> since_attitude;  ///< nullopt before the first
+  std::optional<Duration> since_position;
+  VehicleClockMap::Source clock_source = VehicleClockMap::Source::kNone;
+  std::optional<Duration> clock_error_bound;  ///< nullopt where only arrivals are known
+  std::uint64_t lost_frames = 0;              ///< of the vehicle, by its sequence numbers
+
+  FrameCounts frames;
+  TelemetryCounts telemetry;
+  VehicleClockMap::Counts clock;
+  StreamRequests::Counts requests;
+};
+
+}  // namespace geoloc::io

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace geoloc::io {
+
+struct MavlinkConfig {
+  int system_id = 0;               ///< of the vehicle, 1-255; 0: the first autopilot that is heard
+  int component_id = 191;          ///< our own, in the vehicle's system; 191 is that of an onboard computer
+  double attitude_rate_hz = 10.0;  ///< asked for, 1-50
+  double position_rate_hz = 10.0;  ///< asked for, 1-50
+  double link_timeout_s = 3.0;     ///< of silence; then the vehicle is asked anew for everything
+
+  /// Every fault, named by its JSON path; empty where the settings can be used.
+  std::vector<std::string> problems() const;
+};
+
+}  // namespace geoloc::io

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "geoloc/io/mavlink/frame.hpp"
+#include "geoloc/state/samples.hpp"
+
+// What geoloc reads from a vehicle, in the units of the library.
+namespace geoloc::io {
+
+struct Heartbeat {
+  std::uint8_t vehicle_type = 0;  ///< MAV_TYPE
+  std::uint8_t autopilot = 0;     ///< MAV_AUTOPILOT
+
+  /// Not a ground station, camera, gimbal or companion.
+  bool is_from_autopilot() const;
+  bool is_from_ardupilot() const;
+};
+
+/// ATTITUDE or ATTITUDE_QUATERNION.
+struct AttitudeMessage {
+  AttitudeSample sample;
+  bool from_quaternion = false;
+};
+
+/// GPS_RAW_INT: the first receiver alone. Its own position is not used: the autopilot's estimate is better.
+struct GnssStatus {
+  std::uint8_t fix_type = 0;                 ///< GPS_FIX_TYPE: 3 and more have a position
+  std::optional<double> sigma_horizontal_m;  ///< h_acc, where the receiver states it (never in MAVLink 1)
+};
+
+/// EKF_STATUS_REPORT (ArduPilot) or ESTIMATOR_STATUS (PX4), which share the bits that matter here.
+struct EstimatorStatus {
+  std::uint16_t flags = 0;
+
+  bool has_absolute_position() const;
+};
+
+/// TIMESYNC: a request has vehicle_ns = 0.
+struct Timesync {
+  std::int64_t vehicle_ns = 0;    ///< tc1: the answering clock
+  std::int64_t requester_ns = 0;  ///< ts1: given back as it came
+  MavAddress target;              ///< of an answer, where the sender states it; else 0, 0
+};
+
+/// SYSTEM_TIME. Its UNIX time is not read: 0 before GPS time, and it has been seen centuries wrong.
+struct SystemTime {
+  VehicleTime time;
+};
+
+struct CommandAck {
+  std::uint16_t command = 0;  ///< MAV_CMD
+  std::uint8_t result = 0;    ///< MAV_RESULT
+  MavAddress target;          ///< whose command it was, where the sender states it; else 0, 0
+};
+
+/// A message that geoloc has no use for.
+struct NotDecoded {};
+
+/// A message with values that cannot be: not finite, or out of range.
+struct RefusedValues {};
+
+using Message = std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessage, PositionSample,
+                             GnssStatus, EstimatorStatus, Timesync, SystemTime, CommandAck>;
+
+/// Payloads that MAVLink 2 cut short are filled up with zeros. Positions (GLOBAL_POSITION_INT) come as they
+/// are: whether the vehicle knew where it was is for others to judge.
+Message decode(const Frame& frame);
+
+}  // namespace geoloc::io

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "geoloc/io/mavlink/frame.hpp"
+
+namespace geoloc::io {
+
+/// Counts the frames that were lost on the way, from the gaps in each sender's sequence numbers. Room for
+/// kSenders: those that come later are not tracked, so a flood of made-up addresses costs nothing.
+class SequenceTracker {
+ public:
+  void observe(MavAddress sender, std::uint8_t sequence);
+
+  /// For frames whose checksum cannot be checked: they fill a gap of a sender that is known, but make none
+  /// known.
+  void observe_unchecked(MavAddress sender, std::uint8_t sequence);
+
+  /// Of one sender; 0 where it is not tracked.
+  std::uint64_t lost(MavAddress sender) const;
+
+  /// Of all senders.
+  std::uint64_t lost() const;
+
+ private:
+  static constexpr std::size_t kSenders = 32;
+
+  struct Sender {
+    MavAddress address;
+    std::uint8_t sequence = 0;
+    std::uint64_t lost = 0;
+  };
+
+  Sender* find(MavAddress address);
+
+  std::array<Sender, kSenders> senders_{};
+  std::size_t count_ = 0;
+};
+
+}  // namespace geoloc::io

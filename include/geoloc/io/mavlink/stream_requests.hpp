@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/rate_meter.hpp"
+
+namespace geoloc::io {
+
+/// A message that the vehicle is to send regularly.
+struct WantedStream {
+  std::uint32_t message_id = 0;
+  double rate_hz = 1.0;
+  std::uint8_t data_stream = 0;  ///< MAV_DATA_STREAM that carries it on old autopilots; 0: none
+};
+
+struct StreamRequest {
+  enum class Method { kMessageInterval, kDataStream };
+  WantedStream stream;
+  Method method = Method::kMessageInterval;
+};
+
+/// Decides what to ask the vehicle for, and when. What counts is what arrives: a message that comes often
+/// enough, whoever asked for it, is not asked for; one that does not is asked for again, at growing
+/// intervals. The answers only set the pace, for they do not say which message they are about: one request is
+/// open at a time.
+class StreamRequests {
+ public:
+  struct Counts {
+    std::uint64_t requests = 0;
+    std::uint64_t denials = 0;
+  };
+
+  /// Wants these from now on, and looks for a second at what comes by itself.
+  void want(std::vector<WantedStream> streams, HostTime now);
+
+  /// The vehicle rebooted or was out of reach: nothing of before counts.
+  void restart(HostTime now);
+
+  void on_message(std::uint32_t message_id, HostTime received_at);
+
+  /// COMMAND_ACK of a MAV_CMD_SET_MESSAGE_INTERVAL.
+  void on_answer(std::uint8_t result, HostTime received_at);
+
+  /// The request to send now, if there is one.
+  std::optional<StreamRequest> next(HostTime now);
+
+  const Counts& counts() const { return counts_; }
+
+ private:
+  enum class Answer { kNone, kGranted, kDenied, kCommandUnknown };
+
+  struct Stream {
+    WantedStream wanted;
+    RateMeter meter;
+    HostTime next_look;
+    int attempts = 0;  ///< in a row, without the wanted rate
+    Answer answer = Answer::kNone;
+  };
+
+  static StreamRequest::Method method_for(const Stream& stream);
+  StreamRequest ask(Stream& stream, HostTime now);
+
+  std::vector<Stream> streams_;
+  std::optional<std::size_t> open_;  ///< the stream whose request awaits its answer
+  HostTime open_until_{};
+  Counts counts_;
+};
+
+}  // namespace geoloc::io

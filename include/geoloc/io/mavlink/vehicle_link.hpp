@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/commands.hpp"
+#include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/io/mavlink/link_status.hpp"
+#include "geoloc/io/mavlink/mavlink_config.hpp"
+#include "geoloc/io/mavlink/messages.hpp"
+#include "geoloc/io/mavlink/position_gate.hpp"
+#include "geoloc/io/mavlink/rate_meter.hpp"
+#include "geoloc/io/mavlink/stream_requests.hpp"
+#include "geoloc/io/mavlink/telemetry_sink.hpp"
+#include "geoloc/state/boot_clock_monitor.hpp"
+#include "geoloc/state/clock_mapping.hpp"
+
+namespace geoloc::io {
+
+/// One vehicle on a MAVLink connection: bytes that arrive go in, its telemetry and clock come out, and what
+/// is to be sent to keep them coming. It does no input or output and reads no clock.
+///
+/// The vehicle is the first autopilot (component 1) whose HEARTBEAT is heard, or the configured system;
+/// nothing of others reaches the sink. What consume() delivers depends on the bytes and their times alone,
+/// never on poll(): the recorded frames, given again with their times, give the same samples and the same
+/// clock map.
+class VehicleLink {
+ public:
+  using Send = std::function<void(const std::uint8_t* frame, std::size_t size)>;
+
+  /// Throws std::invalid_argument naming every problem.
+  explicit VehicleLink(const MavlinkConfig& config);
+
+  /// Bytes as they came, in pieces of any size; `received_at` in whole microseconds, as recordings keep it.
+  /// True where they completed a frame of the vehicle: their sender is the one to answer.
+  bool consume(HostTime received_at, const std::uint8_t* data, std::size_t size, TelemetrySink& sink);
+
+  /// To be called often (10 times a second or more): sends what is due. Silent until a vehicle is known.
+  void poll(HostTime now, const Send& send);
+
+  const VehicleClockMap& clock() const { return clock_; }
+  LinkStatus status(HostTime now) const;
+
+ private:
+  /// Where and when a message came in.
+  struct Arrival {
+    HostTime at;
+    TelemetrySink& sink;
+  };
+
+  bool take(const Frame& frame, const Arrival& arrival);
+  bool is_of_vehicle(const Frame& frame, const Message& message, HostTime received_at);
+  bool accept_stamp(VehicleTime stamp, const Arrival& arrival);
+
+  void handle(const NotDecoded&, const Arrival&) {}
+  void handle(const RefusedValues&, const Arrival&) { ++counts_.refused_values; }
+  void handle(const Heartbeat&, const Arrival&) {}
+  void handle(const AttitudeMessage& message, const Arrival& arrival);
+  void handle(const PositionSample& message, const Arrival& arrival);
+  void handle(const GnssStatus& message, const Arrival&) { gate_.observe(message); }
+  void handle(const EstimatorStatus& message, const Arrival&) { gate_.observe(message); }
+  void handle(const Timesync& message, const Arrival& arrival);
+  void handle(const SystemTime& message, const Arrival& arrival) { accept_stamp(message.time, arrival); }
+  void handle(const CommandAck& message, const Arrival& arrival);
+
+  void ask_anew(HostTime now);
+  void send_timesync(HostTime now, const Send& send);
+  void send_requests(HostTime now, const Send& send);
+  MavAddress self() const;
+  bool is_for_us(MavAddress target) const;
+  bool is_alive(HostTime now) const;
+
+  MavlinkConfig config_;
+  FrameParser parser_;
+  std::optional<MavAddress> vehicle_;
+  BootClockMonitor boot_clock_;
+  VehicleClockMap clock_;
+  PositionGate gate_;
+  RateMeter attitude_meter_;
+  RateMeter position_meter_;
+  std::optional<HostTime> last_attitude_;
+  std::optional<HostTime> last_euler_attitude_;
+  std::optional<HostTime> last_position_;
+  HostTime last_heard_{};
+  bool is_v2_ = false;
+  TelemetryCounts counts_;
+
+  // What poll() sends. None of it may reach what consume() delivers.
+  StreamRequests requests_;
+  CommandWriter writer_;
+  std::optional<HostTime> last_heartbeat_;
+  std::optional<HostTime> last_timesync_;
+  int fast_timesyncs_ = 0;
+};
+
+}  // namespace geoloc::io

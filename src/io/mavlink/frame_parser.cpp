@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/mavlink/frame_parser.hpp"
+
+#include <algorithm>
+
+#include "geoloc/io/mavlink/message_table.hpp"
+
+namespace geoloc::io {
+namespace {
+
+constexpr std::uint8_t kMagicV1 = 0xFE;
+constexpr std::uint8_t kMagicV2 = 0xFD;
+constexpr std::size_t kHeaderSizeV1 = 6;
+constexpr std::size_t kHeaderSizeV2 = 10;
+constexpr std::size_t kChecksumSize = 2;
+constexpr std::size_t kSignatureSize = 13;
+constexpr std::uint8_t kSignedFlag =
+    0x01;  // the only incompatibility flag there is: a frame with another cannot be read
+
+enum class Finding { kFrame, kBadFrame, kUnknownMessage, kNoFrame, kNeedsMoreBytes };
+
+/// CRC-16/MCRF4XX, MAVLink's checksum.
+class Checksum {
+ public:
+  void add(std::uint8_t byte) {
+    auto mixed = static_cast<std::uint8_t>(byte ^ (value_ & 0xFF));
+    mixed = static_cast<std::uint8_t>(mixed ^ (mixed << 4));
+    value_ = static_cast<std::uint16_t>((value_ >> 8) ^ (mixed << 8) ^ (mixed << 3) ^ (mixed >> 4));
+  }
+  std::uint16_t value() const { return value_; }
+
+ private:
+  std::uint16_t value_ = 0xFFFF;
+};
+
+/// The bytes as a frame by its header alone; kNoFrame where they cannot be one.
+Finding read_header(const std::uint8_t* bytes, std::size_t available, Frame& frame) {
+  frame.is_v2 = bytes[0] == kMagicV2;
+  if (!frame.is_v2 && bytes[0] != kMagicV1) return Finding::kNoFrame;
+  if (frame.is_v2 && available > 2 && (bytes[2] & ~kSignedFlag) != 0) return Finding::kNoFrame;
+  const std::size_t header_size = frame.is_v2 ? kHeaderSizeV2 : kHeaderSizeV1;
+  if (available < header_size) return Finding::kNeedsMoreBytes;
+  frame.bytes = bytes;
+  frame.payload = bytes + header_size;
+  frame.payload_size = bytes[1];
+  frame.is_signed = frame.is_v2 && bytes[2] == kSignedFlag;
+  frame.size = header_size + frame.payload_size + kChecksumSize + (frame.is_signed ? kSignatureSize : 0);
+  const std::uint8_t* const address = bytes + (frame.is_v2 ? 4 : 2);
+  frame.sequence = address[0];
+  frame.sender = {address[1], address[2]};
+  frame.message_id = address[3];
+  if (frame.is_v2) frame.message_id |= static_cast<std::uint32_t>(address[4] << 8 | address[5] << 16);
+  return Finding::kFrame;
+}
+
+bool has_right_checksum(const Frame& frame, std::uint8_t seed) {
+  const std::uint8_t* const checksum = frame.payload + frame.payload_size;
+  Checksum expected;
+  for (const std::uint8_t* byte = frame.bytes + 1; byte != checksum; ++byte) expected.add(*byte);
+  expected.add(seed);
+  return (checksum[0] | checksum[1] << 8) == expected.value();
+}
+
+Finding inspect(const std::uint8_t* bytes, std::size_t available, Frame& frame) {
+  const Finding header = read_header(bytes, available, frame);
+  if (header != Finding::kFrame) return header;
+  const auto spec = message_spec(frame.message_id);
+  if (!spec) return Finding::kUnknownMessage;
+  // MAVLink 1 knows no extensions and cuts no zeros: a wrong size is seen without waiting for the bytes.
+  if (!frame.is_v2 && frame.payload_size != spec->base_size) return Finding::kBadFrame;
+  if (available < frame.size) return Finding::kNeedsMoreBytes;
+  return has_right_checksum(frame, spec->checksum_seed) ? Finding::kFrame : Finding::kBadFrame;
+}
+
+}  // namespace
+
+std::size_t FrameParser::append(const std::uint8_t* data, std::size_t size) {
+  std::copy(buffer_.begin() + begin_, buffer_.begin() + end_, buffer_.begin());
+  end_ -= begin_;
+  begin_ = 0;
+  const std::size_t taken = std::min(size, kCapacity - end_);
+  std::copy_n(data, taken, buffer_.begin() + end_);
+  end_ += taken;
+  return taken;
+}
+
+std::optional<Frame> FrameParser::next() {
+  while (begin_ < end_) {
+    Frame frame;
+    switch (inspect(&buffer_[begin_], end_ - begin_, frame)) {
+      case Finding::kFrame:
+        take(frame);
+        return frame;
+      case Finding::kNeedsMoreBytes:
+        return std::nullopt;
+      case Finding::kBadFrame:
+        if (unknown_.left == 0) ++counts_.bad_frames;
+        break;
+      case Finding::kUnknownMessage:
+        if (unknown_.left == 0) start_unknown(frame);
+        break;
+      case Finding::kNoFrame:
+        break;
+    }
+    pass_byte();
+  }
+  return std::nullopt;
+}
+
+void FrameParser::start_unknown(const Frame& header) {
+  unknown_ = {header.sender, header.sequence, header.size, header.size};
+}
+
+void FrameParser::pass_byte() {
+  ++begin_;
+  if (unknown_.left == 0) {
+    ++counts_.junk_bytes;
+  } else if (--unknown_.left == 0) {
+    ++counts_.unknown_frames;
+    sequences_.observe_unchecked(unknown_.sender, unknown_.sequence);
+  }
+}
+
+void FrameParser::take(const Frame& frame) {
+  if (unknown_.left > 0) {
+    counts_.junk_bytes += unknown_.size - unknown_.left;
+    unknown_.left = 0;
+  }
+  begin_ += frame.size;
+  ++counts_.frames;
+  if (frame.is_signed) ++counts_.signed_frames;
+  sequences_.observe(frame.sender, frame.sequence);
+}
+
+}  // namespace geoloc::io

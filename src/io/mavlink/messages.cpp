@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/mavlink/messages.hpp"
+
+#include <all/mavlink.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace geoloc::io {
+namespace {
+
+constexpr double kLargestTurn_rad = 6.2832;  // of angles that may be given as 0..2 pi
+constexpr double kLargestPitch_rad = 1.5709;
+constexpr double kLargestHeight_m = 100e3;
+
+/// The generated decoders fill up what a short payload lacks.
+template <typename Fields>
+Fields unpack(const Frame& frame, void (*decode_fields)(const mavlink_message_t*, Fields*)) {
+  mavlink_message_t message{};
+  message.len = static_cast<std::uint8_t>(frame.payload_size);
+  std::memcpy(message.payload64, frame.payload, frame.payload_size);
+  Fields fields{};
+  decode_fields(&message, &fields);
+  return fields;
+}
+
+VehicleTime boot_time(std::uint32_t time_boot_ms) {
+  return VehicleTime{std::chrono::milliseconds{time_boot_ms}};
+}
+
+Message decode_heartbeat(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_heartbeat_decode);
+  return Heartbeat{fields.type, fields.autopilot};
+}
+
+Message attitude_message(VehicleTime time, const EulerAngles& angles, bool from_quaternion) {
+  const bool is_valid = std::abs(angles.roll_rad) <= kLargestTurn_rad &&
+                        std::abs(angles.pitch_rad) <= kLargestPitch_rad &&
+                        std::abs(angles.yaw_rad) <= kLargestTurn_rad;
+  if (!is_valid) return RefusedValues{};
+  return AttitudeMessage{{time, angles}, from_quaternion};
+}
+
+Message decode_attitude(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_attitude_decode);
+  return attitude_message(boot_time(fields.time_boot_ms), {fields.roll, fields.pitch, fields.yaw}, false);
+}
+
+Message decode_attitude_quaternion(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_attitude_quaternion_decode);
+  const Eigen::Quaterniond ned_from_body(fields.q1, fields.q2, fields.q3, fields.q4);
+  constexpr double kNormTolerance = 0.01;
+  if (!(std::abs(ned_from_body.norm() - 1.0) <= kNormTolerance)) return RefusedValues{};
+  return attitude_message(boot_time(fields.time_boot_ms), euler_angles(ned_from_body.normalized()), true);
+}
+
+Message decode_position(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_global_position_int_decode);
+  PositionSample sample;
+  sample.time = boot_time(fields.time_boot_ms);
+  sample.position = {fields.lat / 1e7, fields.lon / 1e7};
+  sample.height_above_home_m = fields.relative_alt / 1e3;
+  sample.height_msl_m = fields.alt / 1e3;
+  const bool is_valid = std::abs(sample.position.latitude_deg) <= 90.0 &&
+                        std::abs(sample.position.longitude_deg) <= 180.0 &&
+                        std::abs(sample.height_above_home_m) <= kLargestHeight_m &&
+                        std::abs(sample.height_msl_m) <= kLargestHeight_m;
+  if (!is_valid) return RefusedValues{};
+  return sample;
+}
+
+Message decode_gnss_status(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_gps_raw_int_decode);
+  GnssStatus status;
+  status.fix_type = fields.fix_type;
+  const bool states_accuracy = fields.h_acc != 0 && fields.h_acc != std::numeric_limits<std::uint32_t>::max();
+  if (states_accuracy) status.sigma_horizontal_m = fields.h_acc / 1e3;
+  return status;
+}
+
+Message decode_timesync(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_timesync_decode);
+  Timesync timesync{fields.tc1, fields.ts1, {}};
+  // An extension of later dialects than the generated one, told by the length alone.
+  constexpr std::size_t kTargetSystem = 16, kTargetComponent = 17;
+  if (frame.payload_size > kTargetSystem) timesync.target.system = frame.payload[kTargetSystem];
+  if (frame.payload_size > kTargetComponent) timesync.target.component = frame.payload[kTargetComponent];
+  return timesync;
+}
+
+Message decode_system_time(const Frame& frame) {
+  return SystemTime{boot_time(unpack(frame, mavlink_msg_system_time_decode).time_boot_ms)};
+}
+
+Message decode_command_ack(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_command_ack_decode);
+  return CommandAck{fields.command, fields.result, {fields.target_system, fields.target_component}};
+}
+
+}  // namespace
+
+bool Heartbeat::is_from_autopilot() const {
+  return autopilot != MAV_AUTOPILOT_INVALID && vehicle_type != MAV_TYPE_GCS;
+}
+
+bool Heartbeat::is_from_ardupilot() const {
+  return autopilot == MAV_AUTOPILOT_ARDUPILOTMEGA;
+}
+
+bool EstimatorStatus::has_absolute_position() const {
+  static_assert(static_cast<int>(EKF_POS_HORIZ_ABS) == static_cast<int>(ESTIMATOR_POS_HORIZ_ABS));
+  return (flags & EKF_POS_HORIZ_ABS) != 0;
+}
+
+Message decode(const Frame& frame) {
+  switch (frame.message_id) {
+    case MAVLINK_MSG_ID_HEARTBEAT:
+      return decode_heartbeat(frame);
+    case MAVLINK_MSG_ID_ATTITUDE:
+      return decode_attitude(frame);
+    case MAVLINK_MSG_ID_ATTITUDE_QUATERNION:
+      return decode_attitude_quaternion(frame);
+    case MAVLINK_MSG_ID_GLOBAL_POSITION_INT:
+      return decode_position(frame);
+    case MAVLINK_MSG_ID_GPS_RAW_INT:
+      return decode_gnss_status(frame);
+    case MAVLINK_MSG_ID_EKF_STATUS_REPORT:
+      return EstimatorStatus{unpack(frame, mavlink_msg_ekf_status_report_decode).flags};
+    case MAVLINK_MSG_ID_ESTIMATOR_STATUS:
+      return EstimatorStatus{unpack(frame, mavlink_msg_estimator_status_decode).flags};
+    case MAVLINK_MSG_ID_TIMESYNC:
+      return decode_timesync(frame);
+    case MAVLINK_MSG_ID_SYSTEM_TIME:
+      return decode_system_time(frame);
+    case MAVLINK_MSG_ID_COMMAND_ACK:
+      return decode_command_ack(frame);
+    default:
+      return NotDecoded{};
+  }
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/mavlink/udp_socket.hpp"
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <memory>
+#include <stdexcept>
+#include <system_error>
+
+namespace geoloc::io {
+namespace {
+
+constexpr std::size_t kLargestDatagram = 65536;
+
+std::optional<std::uint16_t> parse_port(const std::string& text) {
+  std::uint16_t port = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped_at, error] = std::from_chars(text.data(), end, port);
+  if (text.empty() || error != std::errc{} || stopped_at != end) return std::nullopt;
+  return port;
+}
+
+using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+
+AddressList resolve(const UdpEndpoint& endpoint) {
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_DGRAM;
+  hints.ai_flags = AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  const int status =
+      getaddrinfo(endpoint.host.c_str(), std::to_string(endpoint.port).c_str(), &hints, &found);
+  if (status != 0) {
+    throw std::runtime_error("UDP " + endpoint.host + ":" + std::to_string(endpoint.port) + ": " +
+                             gai_strerror(status) + "; give an address of this computer, or the port alone");
+  }
+  return {found, &freeaddrinfo};
+}
+
+[[noreturn]] void fail_to_bind(const UdpEndpoint& endpoint, int error) {
+  std::string message = "UDP " + endpoint.host + ":" + std::to_string(endpoint.port) + ": " +
+                        std::generic_category().message(error);
+  if (error == EADDRINUSE) {
+    message +=
+        "; another program, perhaps a ground station, holds the port: close it, take another port with "
+        "--udp, or "
+        "share the vehicle's link through mavlink-router or MAVProxy";
+  } else if (error == EADDRNOTAVAIL) {
+    message += "; the host must be an address of this computer";
+  } else if (error == EACCES) {
+    message += "; ports below 1024 are for the system, take another with --udp";
+  }
+  throw std::runtime_error(message);
+}
+
+int open_bound_socket(const UdpEndpoint& endpoint) {
+  const AddressList address = resolve(endpoint);
+  const int descriptor = socket(address->ai_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (descriptor < 0) fail_to_bind(endpoint, errno);
+  if (bind(descriptor, address->ai_addr, address->ai_addrlen) != 0) {
+    const int error = errno;
+    close(descriptor);
+    fail_to_bind(endpoint, error);
+  }
+  return descriptor;
+}
+
+}  // namespace
+
+UdpEndpoint parse_udp_endpoint(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  UdpEndpoint endpoint;
+  bool is_host = true;
+  if (colon != std::string::npos) {
+    endpoint.host = text.substr(0, colon);
+    const bool is_bracketed =
+        endpoint.host.size() > 2 && endpoint.host.front() == '[' && endpoint.host.back() == ']';
+    if (is_bracketed) endpoint.host = endpoint.host.substr(1, endpoint.host.size() - 2);
+    const auto is_allowed = [&](char c) {
+      const bool is_name = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+      return is_name || c == '.' || c == '-' || (is_bracketed && (c == ':' || c == '%'));
+    };
+    is_host = !endpoint.host.empty() && std::all_of(endpoint.host.begin(), endpoint.host.end(), is_allowed);
+  }
+  const auto port = parse_port(colon == std::string::npos ? text : text.substr(colon + 1));
+  if (!is_host || !port) throw std::invalid_argument("'" + text + "' is not PORT, HOST:PORT or [IPV6]:PORT");
+  endpoint.port = *port;
+  return endpoint;
+}
+
+UdpSocket::UdpSocket(const UdpEndpoint& endpoint)
+    : descriptor_(open_bound_socket(endpoint)), buffer_(kLargestDatagram) {}
+
+UdpSocket::~UdpSocket() {
+  close(descriptor_);
+}
+
+std::optional<UdpSocket::Datagram> UdpSocket::receive(std::chrono::milliseconds timeout) {
+  pollfd waiting{descriptor_, POLLIN, 0};
+  if (poll(&waiting, 1, static_cast<int>(timeout.count())) <= 0) return std::nullopt;
+  Datagram datagram{buffer_.data(), 0, {}};
+  datagram.sender.address_size = sizeof datagram.sender.address;
+  const ssize_t size =
+      recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0,
+               reinterpret_cast<sockaddr*>(&datagram.sender.address), &datagram.sender.address_size);
+  if (size < 0) {  // ECONNREFUSED, for one: what was sent before found nobody listening
+    if (errno != EAGAIN && errno != EINTR) ++counts_.receive_errors;
+    return std::nullopt;
+  }
+  ++counts_.received;
+  datagram.size = static_cast<std::size_t>(size);
+  return datagram;
+}
+
+void UdpSocket::send(const std::uint8_t* data, std::size_t size) {
+  if (!peer_) return;
+  const ssize_t sent = sendto(descriptor_, data, size, MSG_NOSIGNAL,
+                              reinterpret_cast<const sockaddr*>(&peer_->address), peer_->address_size);
+  if (sent == static_cast<ssize_t>(size)) {
+    ++counts_.sent;
+  } else {
+    ++counts_.send_errors;
+  }
+}
+
+std::uint16_t UdpSocket::local_port() const {
+  sockaddr_storage address{};
+  socklen_t size = sizeof address;
+  if (getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size) != 0) return 0;
+  const bool is_v6 = address.ss_family == AF_INET6;
+  return ntohs(is_v6 ? reinterpret_cast<const sockaddr_in6&>(address).sin6_port
+                     : reinterpret_cast<const sockaddr_in&>(address).sin_port);
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/mavlink/vehicle_link.hpp"
+
+#include <cmath>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "geoloc/geometry/problems.hpp"
+
+namespace geoloc::io {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint8_t kAutopilotComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
+constexpr Duration kHeartbeatPeriod = 1s;
+/// The clock is wanted soon after start and reboot; then it only drifts.
+constexpr Duration kFastTimesyncPeriod = 100ms;
+constexpr Duration kTimesyncPeriod = 1s;
+constexpr int kFastTimesyncs = 20;
+/// While ATTITUDE came less than this ago, ATTITUDE_QUATERNION says nothing new.
+constexpr Duration kEulerSilence = 1s;
+/// Recordings keep whole microseconds. The digits below say, in what a vehicle answers, that the question was
+/// ours.
+constexpr std::int64_t kNanosecondsPerStamp = 1000;
+
+constexpr std::uint16_t kSetMessageInterval = 511;  // MAV_CMD
+
+std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot) {
+  constexpr std::uint32_t kSystemTime = 2, kGpsRawInt = 24, kAttitude = 30, kGlobalPositionInt = 33;
+  constexpr std::uint32_t kEkfStatusReport = 193, kEstimatorStatus = 230;
+  constexpr std::uint8_t kNone = 0, kExtendedStatus = 2, kPosition = 6, kExtra1 = 10, kExtra3 = 12;
+  std::vector<WantedStream> streams{{kAttitude, config.attitude_rate_hz, kExtra1},
+                                    {kGlobalPositionInt, config.position_rate_hz, kPosition},
+                                    {kGpsRawInt, 2.0, kExtendedStatus},
+                                    {kSystemTime, 1.0, kExtra3}};
+  if (is_ardupilot) streams.push_back({kEkfStatusReport, 2.0, kExtra3});
+  if (!is_ardupilot) streams.push_back({kEstimatorStatus, 1.0, kNone});
+  return streams;
+}
+
+bool is_due(const std::optional<HostTime>& last, Duration period, HostTime now) {
+  return !last || now < *last || now - *last >= period;
+}
+
+std::optional<Duration> since(const std::optional<HostTime>& time, HostTime now) {
+  if (!time) return std::nullopt;
+  return now - *time;
+}
+
+void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
+  send(frame.bytes.data(), frame.size);
+}
+
+}  // namespace
+
+std::vector<std::string> MavlinkConfig::problems() const {
+  Problems found;
+  found.require(system_id >= 0 && system_id <= 255, "mavlink.system_id must lie in [0, 255]");
+  found.require(component_id >= 2 && component_id <= 255,
+                "mavlink.component_id must lie in [2, 255]: 1 is the autopilot");
+  found.require(attitude_rate_hz >= 1.0 && attitude_rate_hz <= 50.0,
+                "mavlink.attitude_rate_hz must lie in [1, 50]");
+  found.require(position_rate_hz >= 1.0 && position_rate_hz <= 50.0,
+                "mavlink.position_rate_hz must lie in [1, 50]");
+  found.require(link_timeout_s >= 0.5 && link_timeout_s <= 60.0,
+                "mavlink.link_timeout_s must lie in [0.5, 60]");
+  return found.take();
+}
+
+VehicleLink::VehicleLink(const MavlinkConfig& config) : config_(config) {
+  throw_if_any(config.problems());
+}
+
+bool VehicleLink::consume(HostTime received_at, const std::uint8_t* data, std::size_t size,
+                          TelemetrySink& sink) {
+  const Arrival arrival{received_at, sink};
+  bool heard_vehicle = false;
+  while (size > 0) {
+    const std::size_t taken = parser_.append(data, size);
+    data += taken;
+    size -= taken;
+    while (const auto frame = parser_.next()) heard_vehicle |= take(*frame, arrival);
+  }
+  return heard_vehicle;
+}
+
+bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
+  arrival.sink.on_frame(arrival.at, frame.bytes, frame.size);
+  const Message message = decode(frame);
+  if (!is_of_vehicle(frame, message, arrival.at)) {
+    ++counts_.foreign_frames;
+    return false;
+  }
+  ++counts_.vehicle_frames;
+  if (!is_alive(arrival.at)) ask_anew(arrival.at);
+  last_heard_ = arrival.at;
+  is_v2_ = frame.is_v2;
+  requests_.on_message(frame.message_id, arrival.at);
+  std::visit([&](const auto& content) { handle(content, arrival); }, message);
+  return true;
+}
+
+bool VehicleLink::is_of_vehicle(const Frame& frame, const Message& message, HostTime received_at) {
+  if (vehicle_) return frame.sender == *vehicle_;
+  const auto* const heartbeat = std::get_if<Heartbeat>(&message);
+  const bool is_wanted = config_.system_id == 0 || config_.system_id == frame.sender.system;
+  if (heartbeat == nullptr || !is_wanted || !heartbeat->is_from_autopilot() ||
+      frame.sender.component != kAutopilotComponent) {
+    return false;
+  }
+  vehicle_ = frame.sender;
+  last_heard_ = received_at;
+  requests_.want(wanted_streams(config_, heartbeat->is_from_ardupilot()), received_at);
+  return true;
+}
+
+bool VehicleLink::accept_stamp(VehicleTime stamp, const Arrival& arrival) {
+  switch (boot_clock_.observe(stamp)) {
+    case BootClockMonitor::Verdict::kSuspect:
+      ++counts_.suspect_stamps;
+      return false;
+    case BootClockMonitor::Verdict::kRebooted:
+      ++counts_.reboots;
+      clock_.restart();
+      gate_ = PositionGate{};
+      ask_anew(arrival.at);
+      arrival.sink.on_reboot();
+      break;
+    case BootClockMonitor::Verdict::kAdvanced:
+      break;
+  }
+  clock_.add_arrival(stamp, arrival.at);
+  return true;
+}
+
+void VehicleLink::handle(const AttitudeMessage& message, const Arrival& arrival) {
+  if (!accept_stamp(message.sample.time, arrival)) return;
+  if (!message.from_quaternion) last_euler_attitude_ = arrival.at;
+  if (message.from_quaternion && last_euler_attitude_ && arrival.at - *last_euler_attitude_ < kEulerSilence) {
+    ++counts_.second_attitudes;
+    return;
+  }
+  ++counts_.attitudes;
+  last_attitude_ = arrival.at;
+  attitude_meter_.add(arrival.at);
+  arrival.sink.on_attitude(message.sample);
+}
+
+void VehicleLink::handle(const PositionSample& message, const Arrival& arrival) {
+  if (!accept_stamp(message.time, arrival)) return;
+  if (!gate_.admits(message.position)) {
+    ++counts_.no_fix_positions;
+    return;
+  }
+  ++counts_.positions;
+  last_position_ = arrival.at;
+  position_meter_.add(arrival.at);
+  PositionSample sample = message;
+  if (gate_.gnss()) sample.sigma_horizontal_m = gate_.gnss()->sigma_horizontal_m;
+  arrival.sink.on_position(sample);
+}
+
+void VehicleLink::handle(const Timesync& message, const Arrival& arrival) {
+  const std::int64_t mark = message.requester_ns % kNanosecondsPerStamp;
+  if (message.vehicle_ns == 0 || mark != config_.component_id || !is_for_us(message.target)) {
+    ++counts_.foreign_timesyncs;
+    return;
+  }
+  clock_.add_round_trip(HostTime{Duration{message.requester_ns - mark}},
+                        VehicleTime{Duration{message.vehicle_ns}}, arrival.at);
+}
+
+void VehicleLink::handle(const CommandAck& message, const Arrival& arrival) {
+  if (message.command == kSetMessageInterval && is_for_us(message.target)) {
+    requests_.on_answer(message.result, arrival.at);
+  }
+}
+
+void VehicleLink::poll(HostTime now, const Send& send) {
+  if (!vehicle_) return;
+  writer_.use_v2(is_v2_);
+  if (is_due(last_heartbeat_, kHeartbeatPeriod, now)) {
+    last_heartbeat_ = now;
+    send_frame(writer_.heartbeat(self()), send);
+  }
+  if (!is_alive(now)) return;
+  send_timesync(now, send);
+  send_requests(now, send);
+}
+
+void VehicleLink::send_timesync(HostTime now, const Send& send) {
+  const bool is_fast = fast_timesyncs_ < kFastTimesyncs;
+  if (!is_due(last_timesync_, is_fast ? kFastTimesyncPeriod : kTimesyncPeriod, now)) return;
+  last_timesync_ = now;
+  if (is_fast) ++fast_timesyncs_;
+  const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch());
+  const std::int64_t marked_ns = now_us.count() * kNanosecondsPerStamp + config_.component_id;
+  send_frame(writer_.timesync_request(self(), marked_ns), send);
+}
+
+void VehicleLink::send_requests(HostTime now, const Send& send) {
+  while (const auto request = requests_.next(now)) {
+    const WantedStream& stream = request->stream;
+    send_frame(request->method == StreamRequest::Method::kDataStream
+                   ? writer_.request_data_stream(self(), *vehicle_, stream.data_stream, stream.rate_hz)
+                   : writer_.set_message_interval(self(), *vehicle_, stream.message_id, stream.rate_hz),
+               send);
+  }
+}
+
+void VehicleLink::ask_anew(HostTime now) {
+  requests_.restart(now);
+  fast_timesyncs_ = 0;
+}
+
+MavAddress VehicleLink::self() const {
+  return {vehicle_->system, static_cast<std::uint8_t>(config_.component_id)};
+}
+
+/// Senders that do not say whom they answer leave 0.
+bool VehicleLink::is_for_us(MavAddress target) const {
+  return (target.system == 0 || target.system == self().system) &&
+         (target.component == 0 || target.component == self().component);
+}
+
+bool VehicleLink::is_alive(HostTime now) const {
+  return now - last_heard_ <= from_seconds(config_.link_timeout_s);
+}
+
+LinkStatus VehicleLink::status(HostTime now) const {
+  LinkStatus status;
+  status.vehicle = vehicle_;
+  status.is_v2 = is_v2_;
+  if (gate_.gnss()) status.fix_type = gate_.gnss()->fix_type;
+  status.attitude_rate_hz = attitude_meter_.rate_hz(now);
+  status.position_rate_hz = position_meter_.rate_hz(now);
+  status.since_attitude = since(last_attitude_, now);
+  status.since_position = since(last_position_, now);
+  status.clock_source = clock_.source();
+  status.clock_error_bound = clock_.error_bound();
+  if (vehicle_) status.lost_frames = parser_.sequences().lost(*vehicle_);
+  status.frames = parser_.counts();
+  status.telemetry = counts_;
+  status.clock = clock_.counts();
+  status.requests = requests_.counts();
+  return status;
+}
+
+}  // namespace geoloc::io
