@@ -23,10 +23,10 @@ struct ProjectorConfig {
 
 /// Where a pixel's ray meets the ground.
 struct GroundFix {
-  Eigen::Vector2d position_in_enu;    ///< east, north [m]
-  Eigen::Matrix2d ground_from_pixel;  ///< d (east, north) / d (u, v) [m/px]
-  Eigen::Vector3d direction_in_enu;   ///< of the ray, unit length
-  double range_m;                     ///< from the camera
+  Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();    ///< east, north [m]
+  Eigen::Matrix2d ground_from_pixel = Eigen::Matrix2d::Zero();  ///< d (east, north) / d (u, v) [m/px]
+  Eigen::Vector3d direction_in_enu = Eigen::Vector3d::Zero();   ///< of the ray, unit length
+  double range_m = 0.0;                                         ///< from the camera
 
   /// Covariance [m^2] that isotropic noise of the pixel causes.
   Eigen::Matrix2d covariance(double sigma_px) const {

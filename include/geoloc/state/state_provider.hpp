@@ -31,9 +31,10 @@ struct StateConfig {
 /// Where the vehicle was at one instant.
 struct VehicleState {
   VehicleTime time;
-  Rigid3d enu_from_body;                     ///< up is the height above home
-  Eigen::Vector3d velocity_in_enu;           ///< [m/s], of the interpolation's segment
-  Eigen::Vector3d angular_velocity_in_body;  ///< [rad/s], of the interpolation's segment
+  Rigid3d enu_from_body;                                      ///< up is the height above home
+  Eigen::Vector3d velocity_in_enu = Eigen::Vector3d::Zero();  ///< [m/s], of the interpolation's segment
+  Eigen::Vector3d angular_velocity_in_body =
+      Eigen::Vector3d::Zero();               ///< [rad/s], of the interpolation's segment
   std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
 };
 

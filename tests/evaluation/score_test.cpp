@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/evaluation/score.hpp"
+
+#include <gtest/gtest.h>
+
+namespace geoloc {
+namespace {
+
+TEST(Score, IsWhatAHandCountGives) {
+  const std::vector<Eigen::Vector2d> targets{{0, 0}, {10, 0}, {20, 0}, {21, 0}, {50, 0}};
+  const std::vector<Eigen::Vector2d> objects{{0.3, 0.4}, {10.3, 0.4}, {20.3, 0.4}, {80, 80}};
+  const Score score = score_objects(objects, targets);
+  EXPECT_EQ(score.found, 3);
+  EXPECT_EQ(score.extra, 1);
+  EXPECT_EQ(score.merged_pairs, 1);  // 21 beside 20; the lost target at 50 has no neighbour
+  EXPECT_NEAR(score.rmse_m, 0.5, 1e-12);
+  EXPECT_NEAR(score.relative_rmse_m, 0.0, 1e-12);  // all errors are one offset
+  EXPECT_EQ(score.target_of_object, (std::vector<int>{0, 1, 2, -1}));
+}
+
+TEST(Score, OfNothingIsZero) {
+  EXPECT_EQ(score_objects({}, {{0, 0}}).found, 0);
+  EXPECT_EQ(score_objects({{0, 0}}, {}).extra, 1);
+}
+
+}  // namespace
+}  // namespace geoloc

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/pipeline/geolocator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "geoloc/geometry/angles.hpp"
+#include "support/allocation_counter.hpp"
+
+namespace geoloc {
+namespace {
+
+constexpr double kSpeed_mps = 5.0;
+constexpr double kHeight_m = 20.0;
+const Geodetic kHome{-22.906, -43.133};
+
+VehicleTime at_s(double s) {
+  return VehicleTime{from_seconds(s)};
+}
+
+/// A level flight to the north over objects on a grid, with perfect telemetry.
+class Flight {
+ public:
+  explicit Flight(const GeolocatorConfig& config = {}) : geolocator_(config) {}
+
+  void fly_until(double time_s) {
+    for (; telemetry_s_ < time_s + 0.2; telemetry_s_ += 0.1) {
+      PositionSample position;
+      position.time = at_s(telemetry_s_);
+      position.position = frame_.to_geodetic({0.0, kSpeed_mps * telemetry_s_});
+      position.height_above_home_m = kHeight_m;
+      position.height_msl_m = kHeight_m + 10.0;
+      geolocator_.add(position);
+      geolocator_.add(AttitudeSample{at_s(telemetry_s_), {0.05 * std::sin(telemetry_s_), 0.03, 0.0}});
+    }
+  }
+
+  /// What a perfect detector sees at that time.
+  FrameDetections frame(double time_s) {
+    fly_until(time_s);
+    FrameDetections frame;
+    frame.captured_at = at_s(time_s);
+    frame.captured_at_host = HostTime{from_seconds(1e9 + time_s)};
+    const auto state = geolocator_.state().at(frame.captured_at);
+    const Rigid3d pose = enu_from_camera(*state, CameraMount{}, CameraOrientation::kComposed);
+    for (double north = 0; north < 200; north += 8.0) {
+      for (const double east : {-8.0, 0.0, 7.0}) {
+        const auto pixel = geolocator_.projector().reproject({east, north}, pose);
+        if (!pixel || !geolocator_.projector().camera().contains(*pixel, 20.0)) continue;
+        frame.detections.push_back({{pixel->x() + 0.5 - 18, pixel->y() + 0.5 - 18, 36, 36}, 0.9, 0});
+      }
+    }
+    return frame;
+  }
+
+  Geolocator& geolocator() { return geolocator_; }
+
+ private:
+  LocalFrame frame_{kHome, 10.0};
+  Geolocator geolocator_;
+  double telemetry_s_ = 0.0;
+};
+
+TEST(Geolocator, FindsEveryObjectWhereItIs) {
+  Flight flight;
+  for (double time_s = 1.0; time_s < 30.0; time_s += 0.1)
+    ASSERT_TRUE(flight.geolocator().process(flight.frame(time_s)));
+  int confirmed = 0;
+  for (const Track& track : flight.geolocator().tracks()) {
+    if (track.status != TrackStatus::kConfirmed) continue;
+    ++confirmed;
+    const Eigen::Vector2d position = track.position_in_enu.mean;
+    const Eigen::Vector2d nearest{position.x() < -4 ? -8.0 : (position.x() < 3.5 ? 0.0 : 7.0),
+                                  8.0 * std::round(position.y() / 8.0)};
+    EXPECT_LT((position - nearest).norm(), 1e-3);
+  }
+  EXPECT_GE(confirmed, 3 * 18);
+}
+
+TEST(Geolocator, DoesNotMindTheOrderOfDetections) {
+  Flight straight, shuffled;
+  std::mt19937 random(11);
+  for (double time_s = 1.0; time_s < 20.0; time_s += 0.1) {
+    FrameDetections frame = straight.frame(time_s);
+    for (Detection& detection : frame.detections) {
+      detection.box.x += std::normal_distribution<double>(0.0, 3.0)(random);
+    }
+    straight.geolocator().process(frame);
+    std::shuffle(frame.detections.begin(), frame.detections.end(), random);
+    shuffled.fly_until(time_s);
+    shuffled.geolocator().process(frame);
+  }
+  const auto& a = straight.geolocator().tracks();
+  const auto& b = shuffled.geolocator().tracks();
+  ASSERT_EQ(a.size(), b.size());
+  ASSERT_GT(a.size(), 20U);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].id, b[i].id);
+    EXPECT_EQ(a[i].position_in_enu.mean, b[i].position_in_enu.mean);  // the same bits
+    EXPECT_EQ(a[i].position_in_enu.covariance, b[i].position_in_enu.covariance);
+  }
+}
+
+TEST(Geolocator, GuessesNothingWithoutState) {
+  Flight flight;
+  FrameDetections frame = flight.frame(1.0);
+  frame.captured_at = at_s(500.0);
+  EXPECT_EQ(flight.geolocator().missing_state(frame.captured_at), NoState::kNotYet);
+  EXPECT_FALSE(flight.geolocator().process(frame));
+  EXPECT_EQ(flight.geolocator().counters().frames_unusable, 1U);
+  EXPECT_TRUE(flight.geolocator().tracks().empty());
+}
+
+TEST(Geolocator, CountsDetectionsItCannotUse) {
+  GeolocatorConfig config;
+  config.max_detections = 2;
+  Flight flight(config);
+  FrameDetections frame = flight.frame(1.0);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  frame.detections = {{{100, 100, 30, 30}, 0.5, 0},
+                      {{nan, 0, 1, 1}, 0.9, 0},
+                      {{0, 0, 0, 10}, 0.9, 0},
+                      {{500, 300, 30, 30}, 0.9, 0},
+                      {{700, 300, 30, 30}, 0.8, 0}};
+  flight.geolocator().process(frame);
+  EXPECT_EQ(flight.geolocator().counters().detections_dropped, 3U);
+  ASSERT_EQ(flight.geolocator().located().size(), 2U);  // the two most confident
+  EXPECT_DOUBLE_EQ(flight.geolocator().located()[0].detection.confidence, 0.9);
+  EXPECT_DOUBLE_EQ(flight.geolocator().located()[1].detection.confidence, 0.8);
+}
+
+TEST(Geolocator, DoesNotAllocateInTheSteadyState) {
+  Flight flight;
+  std::vector<FrameDetections> frames;
+  for (double time_s = 1.0; time_s < 15.0; time_s += 0.1) frames.push_back(flight.frame(time_s));
+  flight.geolocator().process(frames[0]);
+  const std::size_t before = testing::allocations();
+  for (const FrameDetections& frame : frames) flight.geolocator().process(frame);
+  PositionSample position;
+  position.time = at_s(100.0);
+  position.position = kHome;
+  flight.geolocator().add(position);
+  flight.geolocator().add(AttitudeSample{at_s(100.0), {}});
+  EXPECT_EQ(testing::allocations(), before);
+}
+
+TEST(GeolocatorConfig, NamesTheProblemsOfEveryStage) {
+  GeolocatorConfig config;
+  config.camera.intrinsics.width_px = -1;
+  config.state.max_gap_s = 0;
+  config.projector.max_range_m = -5;
+  config.paper.gate = 0;
+  config.max_detections = 0;
+  EXPECT_EQ(config.problems().size(), 5U);
+  EXPECT_THROW(Geolocator{config}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace geoloc

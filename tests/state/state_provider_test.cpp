@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/state/state_provider.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc {
+namespace {
+
+VehicleTime at_s(double s) {
+  return VehicleTime{from_seconds(s)};
+}
+const Geodetic kHome{-22.906, -43.133};
+
+PositionSample position(double time_s, double north_m, double up_m) {
+  PositionSample sample;
+  sample.time = at_s(time_s);
+  sample.position = {kHome.latitude_deg + north_m / 110750.0, kHome.longitude_deg};
+  sample.height_above_home_m = up_m;
+  sample.height_msl_m = up_m + 10.0;
+  return sample;
+}
+
+TEST(StateProvider, JoinsPositionAndAttitudeOfDifferentTimes) {
+  StateProvider provider(StateConfig{});
+  for (int i = 0; i <= 10; ++i) provider.add(position(0.1 * i, 5.0 * 0.1 * i, 20.0 + 0.1 * i));
+  for (int i = 0; i <= 10; ++i)
+    provider.add(AttitudeSample{at_s(0.03 + 0.1 * i), {0.01 * i, 0.0, 3.0 + 0.05 * i}});
+  const auto state = provider.at(at_s(0.58));
+  ASSERT_TRUE(state);
+  EXPECT_NEAR(state->enu_from_body.translation.y(), 5.0 * 0.58, 2e-3);
+  EXPECT_NEAR(state->enu_from_body.translation.z(), 20.58, 1e-9);
+  EXPECT_NEAR(state->velocity_in_enu.y(), 5.0, 0.01);
+  const EulerAngles angles = euler_angles(enu_from_ned() * state->enu_from_body.rotation);
+  EXPECT_NEAR(angles.roll_rad, 0.055, 1e-6);
+  EXPECT_NEAR(wrap_to_pi(angles.yaw_rad - 3.275), 0.0, 1e-6);  // across the wrap at pi
+  EXPECT_NEAR(state->angular_velocity_in_body.z(), 0.5, 1e-3);
+}
+
+TEST(StateProvider, GivesNoStateWithoutBothQuantities) {
+  StateProvider provider(StateConfig{});
+  provider.add(position(0.0, 0, 20));
+  provider.add(position(0.1, 0, 20));
+  EXPECT_EQ(provider.at(at_s(0.05)).error(), NoState::kNoSamples);
+}
+
+TEST(StateProvider, StartsAfreshAfterAReboot) {
+  StateProvider provider(StateConfig{});
+  for (int i = 0; i < 50; ++i) {
+    provider.add(position(200 + 0.1 * i, 0, 20));
+    provider.add(AttitudeSample{at_s(200 + 0.1 * i), {}});
+  }
+  for (int i = 0; i < 10; ++i) {
+    provider.add(position(5 + 0.1 * i, 0, 30));
+    provider.add(AttitudeSample{at_s(5 + 0.1 * i), {}});
+  }
+  EXPECT_EQ(provider.counters().reboots, 1U);
+  const auto state = provider.at(at_s(5.75));
+  ASSERT_TRUE(state);
+  EXPECT_NEAR(state->enu_from_body.translation.z(), 30.0, 1e-9);
+  EXPECT_FALSE(provider.at(at_s(202.0)));
+}
+
+TEST(StateProvider, RefusesWhatIsNoNumberAndNoPlace) {
+  StateProvider provider(StateConfig{});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  provider.add(AttitudeSample{at_s(1), {nan, 0, 0}});
+  PositionSample bad = position(1, 0, 20);
+  bad.position.latitude_deg = 91.0;
+  provider.add(bad);
+  bad = position(1, 0, nan);
+  provider.add(bad);
+  provider.add(position(1, 0, 20));
+  bad = position(1.1, 0, 20);
+  bad.position.longitude_deg = 10.0;  // the other side of the Atlantic
+  provider.add(bad);
+  EXPECT_EQ(provider.counters().invalid, 3U);
+  EXPECT_EQ(provider.counters().too_far, 1U);
+  EXPECT_EQ(provider.counters().positions, 1U);
+}
+
+TEST(StateProvider, TurnsNorthWithTheMeridian) {
+  // 10 km east of the origin at 60 deg north, true north is 0.155 deg to the left of the frame's north.
+  StateProvider provider(StateConfig{});
+  PositionSample sample;
+  sample.position = {60.0, 10.0};
+  sample.height_above_home_m = 100.0;
+  sample.time = at_s(0);
+  provider.add(sample);
+  for (int i = 1; i <= 3; ++i) {
+    sample.time = at_s(i * 0.1);
+    sample.position.longitude_deg = 10.0 + 10e3 / 55800.0;
+    provider.add(sample);
+    provider.add(AttitudeSample{sample.time, {0, 0, 0}});
+  }
+  const auto state = provider.at(at_s(0.25));
+  ASSERT_TRUE(state);
+  const Eigen::Vector3d nose = state->enu_from_body.rotation * Eigen::Vector3d::UnitX();
+  EXPECT_NEAR(std::atan2(nose.x(), nose.y()) * kDegPerRad, -0.155, 0.001);
+}
+
+TEST(StateConfig, NamesEveryProblem) {
+  StateConfig config;
+  config.max_gap_s = -1;
+  config.max_extrapolation_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(config.problems().size(), 2U);
+  EXPECT_THROW(StateProvider{config}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace geoloc

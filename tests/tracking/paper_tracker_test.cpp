@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/tracking/paper_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "geoloc/geometry/attitude.hpp"
+
+namespace geoloc {
+namespace {
+
+/// A camera that looks straight down from 20 m over the origin: it sees 28 m x 15.7 m.
+class PaperTrackerLife : public ::testing::Test {
+ protected:
+  void see(const std::vector<Eigen::Vector2d>& points, int class_id = 0) { see_at({0, 0}, points, class_id); }
+
+  void see_at(const Eigen::Vector2d& vehicle, const std::vector<Eigen::Vector2d>& points, int class_id = 0) {
+    const Rigid3d enu_from_body{enu_from_ned() * ned_from_body({}), {vehicle.x(), vehicle.y(), 20.0}};
+    std::vector<LocatedDetection> detections;
+    for (const Eigen::Vector2d& point : points) {
+      LocatedDetection located{};
+      located.detection.confidence = 0.9;
+      located.detection.class_id = class_id;
+      located.fix.position_in_enu = point;
+      detections.push_back(located);
+    }
+    now_ += std::chrono::milliseconds{100};
+    tracker_.update(detections, projector_, enu_from_body * body_from_camera(CameraMount{}), now_);
+  }
+
+  const std::vector<Track>& tracks() const { return tracker_.tracks(); }
+
+  Projector projector_{ProjectorConfig{}, CameraIntrinsics{}};
+  PaperTrackerConfig config_;
+  PaperTracker tracker_{config_, 64};
+  HostTime now_{std::chrono::seconds{1000}};
+};
+
+TEST_F(PaperTrackerLife, ConfirmsAnObjectAfterTheAskedHits) {
+  for (int i = 1; i <= config_.confirm_hits; ++i) {
+    see({{1, 2}});
+    ASSERT_EQ(tracks().size(), 1U);
+    const auto expected = i < config_.confirm_hits ? TrackStatus::kTentative : TrackStatus::kConfirmed;
+    EXPECT_EQ(tracks()[0].status, expected);
+  }
+  EXPECT_EQ(tracks()[0].hits, config_.confirm_hits);
+  EXPECT_EQ(tracks()[0].last_seen - tracks()[0].first_seen,
+            std::chrono::milliseconds{100} * (config_.confirm_hits - 1));
+}
+
+TEST_F(PaperTrackerLife, AveragesNoiseDown) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  for (int i = 0; i < 400; ++i) see({{3 + noise(random), -2 + noise(random)}});
+  ASSERT_EQ(tracks().size(), 1U);
+  EXPECT_LT((tracks()[0].position_in_enu.mean - Eigen::Vector2d(3, -2)).norm(), 0.25);
+}
+
+TEST_F(PaperTrackerLife, RemovesWhatShouldBeVisibleAndIsNot) {
+  for (int i = 0; i < 6; ++i) see({{1, 2}});
+  for (int i = 1; i < config_.max_penalty; ++i) see({});
+  EXPECT_EQ(tracks().size(), 1U);
+  see({});
+  EXPECT_TRUE(tracks().empty());
+}
+
+TEST_F(PaperTrackerLife, KeepsWhatIsOutsideTheFieldOfView) {
+  for (int i = 0; i < 6; ++i) see({{1, 2}});
+  for (int i = 0; i < 10 * config_.max_penalty; ++i) see_at({100, 0}, {});
+  ASSERT_EQ(tracks().size(), 1U);
+  EXPECT_EQ(tracks()[0].penalty, 0);
+}
+
+TEST_F(PaperTrackerLife, HitsForgiveMisses) {
+  for (int i = 0; i < 100; ++i)
+    see(i % 2 == 0 ? std::vector<Eigen::Vector2d>{{1, 2}} : std::vector<Eigen::Vector2d>{});
+  ASSERT_EQ(tracks().size(), 1U);
+  EXPECT_LE(tracks()[0].penalty, 1);
+}
+
+TEST_F(PaperTrackerLife, MergesConfirmedNeighboursUnderTheOlderName) {
+  PaperTrackerConfig narrow;
+  narrow.measurement_sigma_m = 0.1;
+  tracker_ = PaperTracker(narrow, 64);
+  for (int i = 0; i < 6; ++i) see({{0, 0}, {1.5, 0}});
+  ASSERT_EQ(tracks().size(), 2U);  // too far apart to merge
+  const auto older = tracks()[0].id;
+  for (int i = 0; i < 200 && tracks().size() == 2; ++i) see({{0, 0}, {1.5 - 0.02 * i, 0}});
+  ASSERT_EQ(tracks().size(), 1U);
+  EXPECT_EQ(tracks()[0].id, older);
+  EXPECT_EQ(tracker_.counters().merged, 1U);
+  EXPECT_GE(tracks()[0].hits, 12);
+}
+
+TEST_F(PaperTrackerLife, NeverReusesAnId) {
+  see({{0, 0}});
+  const auto first = tracks()[0].id;
+  for (int i = 0; i < 2 * config_.max_penalty; ++i) see({});
+  ASSERT_TRUE(tracks().empty());
+  see({{0, 0}});
+  EXPECT_GT(tracks()[0].id, first);
+}
+
+TEST_F(PaperTrackerLife, KeepsTheMajorityClass) {
+  for (int i = 0; i < 9; ++i) see({{0, 0}}, i % 3 == 0 ? 7 : 2);
+  EXPECT_EQ(tracks()[0].class_id(), 2);
+  EXPECT_NEAR(tracks()[0].confidence(), 0.9, 1e-12);
+}
+
+TEST_F(PaperTrackerLife, RefusesObjectsBeyondItsRoomAndCountsThem) {
+  PaperTrackerConfig small;
+  small.max_tracks = 3;
+  tracker_ = PaperTracker(small, 64);
+  see({{-12, 0}, {-6, 0}, {0, 0}, {6, 0}, {12, 0}});
+  EXPECT_EQ(tracks().size(), 3U);
+  EXPECT_EQ(tracker_.counters().refused, 2U);
+}
+
+TEST(PaperTrackerConfig, NamesEveryProblem) {
+  PaperTrackerConfig config;
+  config.measurement_sigma_m = 0;
+  config.gate = std::numeric_limits<double>::quiet_NaN();
+  config.confirm_hits = 0;
+  EXPECT_EQ(config.problems().size(), 3U);
+  EXPECT_THROW(PaperTracker(config, 10), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace geoloc
