@@ -51,12 +51,17 @@ bool StateProvider::accept_stamp(VehicleTime stamp) {
       ++counters_.suspect_stamps;
       return false;
     case BootClockMonitor::Verdict::kRebooted:
-      ++counters_.reboots;
-      attitudes_.clear();
-      positions_.clear();
+      restart();
       return true;
   }
   return false;
+}
+
+void StateProvider::restart() {
+  ++counters_.reboots;
+  attitudes_.clear();
+  positions_.clear();
+  boot_clock_ = BootClockMonitor{};
 }
 
 void StateProvider::add(const AttitudeSample& sample) {

@@ -36,6 +36,9 @@ class Geolocator {
   void add(const AttitudeSample& sample) { state_.add(sample); }
   void add(const PositionSample& sample) { state_.add(sample); }
 
+  /// The vehicle's clock began anew. Needed only where the caller knows before three samples have shown it.
+  void on_vehicle_reboot() { state_.restart(); }
+
   /// Whether a frame of that time can be processed now (nullopt), or why not. On NoState::kNotYet it is worth
   /// waiting.
   std::optional<NoState> missing_state(VehicleTime captured_at) const;

@@ -75,6 +75,9 @@ class StateProvider {
 
   Expected<VehicleState, NoState> at(VehicleTime time) const;
 
+  /// Forgets all samples: for callers who know of a reboot before the stamps show it.
+  void restart();
+
   /// Set by the first position.
   const std::optional<LocalFrame>& local_frame() const { return frame_; }
   Counters counters() const;

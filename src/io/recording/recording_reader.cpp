@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/recording/recording_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <istream>
@@ -102,6 +103,15 @@ TrueTarget parse_target(const json& feature, int position) {
   return target;
 }
 
+std::vector<std::string> read_class_names(const fs::path& file) {
+  const json names = json::parse(read_text_file(file), nullptr, false);
+  const bool is_list_of_texts =
+      names.is_array() &&
+      std::all_of(names.begin(), names.end(), [](const json& name) { return name.is_string(); });
+  if (!is_list_of_texts) throw std::runtime_error(file.string() + ": not a JSON list of names");
+  return names.get<std::vector<std::string>>();
+}
+
 fs::path require_file(const fs::path& file) {
   if (!fs::is_regular_file(file)) {
     throw std::runtime_error(file.string() +
@@ -163,6 +173,8 @@ Recording read_recording(const fs::path& folder, BadLines bad_lines) {
   recording.frames = read_frames(frames, frames_file.string(), bad_lines, recording.skipped_lines);
   recording.telemetry = read_tlog(require_file(folder / "telemetry.tlog"));
   if (fs::exists(folder / "config.json")) recording.config_json = read_text_file(folder / "config.json");
+  if (fs::exists(folder / "class_names.json"))
+    recording.class_names = read_class_names(folder / "class_names.json");
   if (fs::exists(folder / "truth.geojson")) recording.truth = read_truth(folder / "truth.geojson");
   return recording;
 }

@@ -83,6 +83,11 @@ void RecordingWriter::write_config(const std::string& json) {
   write_extra("config.json", json + "\n");
 }
 
+void RecordingWriter::write_class_names(const std::vector<std::string>& names) {
+  const nlohmann::json list(names);
+  write_extra("class_names.json", list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
 void RecordingWriter::write_truth(const std::vector<TrueTarget>& targets) {
   write_extra("truth.geojson", truth_to_geojson(targets));
 }

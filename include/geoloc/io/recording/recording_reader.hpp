@@ -23,7 +23,8 @@ struct Recording {
   Tlog telemetry;
   std::vector<RecordedFrame> frames;
   std::optional<std::string> config_json;
-  std::vector<TrueTarget> truth;  ///< empty where the recording has none
+  std::vector<std::string> class_names;  ///< by class id; empty where the recording has none
+  std::vector<TrueTarget> truth;         ///< empty where the recording has none
   std::size_t skipped_lines = 0;
 };
 

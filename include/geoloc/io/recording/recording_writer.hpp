@@ -23,6 +23,7 @@ class RecordingWriter {
 
   void write_camera(const CameraConfig& camera);
   void write_config(const std::string& json);
+  void write_class_names(const std::vector<std::string>& names);
   void write_truth(const std::vector<TrueTarget>& targets);
   /// Any further small file, e.g. what a simulator injected.
   void write_extra(const std::string& name, const std::string& content);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/estimation_config.hpp"
+
+#include <stdexcept>
+
+#include "geoloc/io/config/geolocator_fields.hpp"
+#include "geoloc/io/json/camera_file.hpp"
+
+namespace geoloc {
+
+namespace io {
+
+template <class Visitor>
+void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
+  v.field("system_id", mavlink.system_id, "of the vehicle, 1-255; 0: the first autopilot heard");
+  v.field("component_id", mavlink.component_id, "our own");
+  v.field("attitude_rate_hz", mavlink.attitude_rate_hz, "Hz, asked for");
+  v.field("position_rate_hz", mavlink.position_rate_hz, "Hz, asked for");
+  v.field("link_timeout_s", mavlink.link_timeout_s, "s of silence; then everything is asked for anew");
+}
+
+}  // namespace io
+
+namespace apps {
+
+template <class Visitor>
+void visit_fields(Visitor& v, FrameConfig& frames) {
+  v.field("max_wait_s", frames.max_wait_s, "s, for the vehicle's state around a frame");
+}
+
+namespace {
+
+template <typename Section>
+void read_section(const nlohmann::json& document, const char* key, Section& section,
+                  std::vector<std::string>& problems) {
+  const auto found = document.find(key);
+  if (found == document.end()) return;
+  io::FieldReader reader(*found, key, problems);
+  visit_fields(reader, section);
+  reader.refuse_unknown();
+}
+
+template <typename Section>
+nlohmann::ordered_json section_to_json(const Section& section) {
+  io::FieldWriter writer;
+  Section copy = section;
+  visit_fields(writer, copy);
+  return writer.take();
+}
+
+}  // namespace
+
+nlohmann::ordered_json estimation_to_json(const EstimationConfig& config) {
+  auto json = io::geolocator_to_json(config.geolocator);
+  json["mavlink"] = section_to_json(config.mavlink);
+  json["frames"] = section_to_json(config.frames);
+  return json;
+}
+
+void estimation_from_json(const nlohmann::json& document, const std::vector<std::string>& ignored_sections,
+                          EstimationConfig& config, std::vector<std::string>& problems) {
+  nlohmann::json rest = document;
+  if (document.is_object()) {
+    read_section(document, "mavlink", config.mavlink, problems);
+    read_section(document, "frames", config.frames, problems);
+    rest.erase("mavlink");
+    rest.erase("frames");
+    for (const std::string& section : ignored_sections) rest.erase(section);
+  }
+  io::geolocator_from_json(rest, config.geolocator, problems);
+  const auto of_mavlink = config.mavlink.problems();
+  problems.insert(problems.end(), of_mavlink.begin(), of_mavlink.end());
+  if (!(config.frames.max_wait_s >= 0.0 && config.frames.max_wait_s <= 60.0)) {
+    problems.emplace_back("frames.max_wait_s must lie in [0, 60]");
+  }
+}
+
+nlohmann::json read_config_document(const std::string& file) {
+  const std::string text = io::read_text_file(file);
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::exception& error) {
+    throw std::runtime_error(file + ": not JSON: " + error.what());
+  }
+}
+
+void refuse_problems(const std::string& file, const std::vector<std::string>& problems) {
+  if (problems.empty()) return;
+  std::string all;
+  for (const std::string& problem : problems) all += "\n  " + problem;
+  throw std::runtime_error(file + ": unusable configuration:" + all);
+}
+
+}  // namespace apps
+}  // namespace geoloc

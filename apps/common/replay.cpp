@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/replay.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+/// The telemetry of a recording, taken in record by record.
+class TelemetryFeed {
+ public:
+  TelemetryFeed(const io::Tlog& log, Session& session) : records_(log.records()), session_(session) {}
+
+  bool is_empty() const { return next_ == records_.size(); }
+  HostTime next_received_at() const { return records_[next_].received_at; }
+  std::size_t taken() const { return next_; }
+
+  void take() {
+    const io::TlogRecord& record = records_[next_++];
+    session_.add_telemetry(record.received_at, record.frame, record.size);
+  }
+
+ private:
+  const std::vector<io::TlogRecord>& records_;
+  Session& session_;
+  std::size_t next_ = 0;
+};
+
+void take_what_was_known(TelemetryFeed& feed, const io::RecordedFrame& frame, const Session& session) {
+  if (frame.telemetry_records) {
+    while (!feed.is_empty() && feed.taken() < *frame.telemetry_records) feed.take();
+    return;
+  }
+  while (!feed.is_empty() && feed.next_received_at() <= frame.captured_at) feed.take();
+  const HostTime give_up_at = frame.captured_at + session.max_frame_wait();
+  while (!feed.is_empty() && !session.is_decided(frame.captured_at) &&
+         feed.next_received_at() <= give_up_at) {
+    feed.take();
+  }
+}
+
+}  // namespace
+
+void replay(const io::Recording& recording, Session& session,
+            const std::function<void(std::size_t)>& on_frame) {
+  TelemetryFeed feed(recording.telemetry, session);
+  std::size_t done = 0;
+  for (const io::RecordedFrame& frame : recording.frames) {
+    take_what_was_known(feed, frame, session);
+    session.process({frame.captured_at, frame.detections});
+    if (on_frame) on_frame(++done);
+  }
+}
+
+}  // namespace geoloc::apps

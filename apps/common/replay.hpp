@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "common/session.hpp"
+#include "geoloc/io/recording/recording_reader.hpp"
+
+namespace geoloc::apps {
+
+/// Feeds a recording to a session in the order of the live run. Where the recording does not tell that order,
+/// each frame waits for the telemetry it needs, as a live run would. `on_frame` is called after each, with
+/// how many are done.
+void replay(const io::Recording& recording, Session& session,
+            const std::function<void(std::size_t)>& on_frame = {});
+
+}  // namespace geoloc::apps

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/run_history.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+template <typename T>
+void append_bounded(std::vector<T>& entries, const T& entry, std::size_t capacity) {
+  if (entries.size() >= capacity) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < entries.size(); i += 2) entries[kept++] = entries[i];
+    entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(kept), entries.end());
+  }
+  entries.push_back(entry);
+}
+
+}  // namespace
+
+void RunHistory::note(const Geolocator& geolocator, HostTime captured_at) {
+  append_bounded(trajectory_, Eigen::Vector2d(geolocator.vehicle().enu_from_body.translation.head<2>()),
+                 capacity_);
+  for (const LocatedDetection& located : geolocator.located()) {
+    append_bounded(
+        raw_fixes_,
+        io::RawFix{captured_at, located.detection, located.fix.position_in_enu, located.fix.range_m},
+        capacity_);
+  }
+}
+
+}  // namespace geoloc::apps

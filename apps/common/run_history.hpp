@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "geoloc/io/output/raw_fixes.hpp"
+#include "geoloc/pipeline/geolocator.hpp"
+
+namespace geoloc::apps {
+
+/// What the picture and the table of a run need of its past. Bounded: past its capacity every second entry is
+/// forgotten, so that flights of hours stay drawable.
+class RunHistory {
+ public:
+  explicit RunHistory(std::size_t capacity = 200'000) : capacity_(capacity) {}
+
+  /// Notes the frame that the Geolocator located last.
+  void note(const Geolocator& geolocator, HostTime captured_at);
+
+  const std::vector<io::RawFix>& raw_fixes() const { return raw_fixes_; }
+  const std::vector<Eigen::Vector2d>& trajectory() const { return trajectory_; }
+
+ private:
+  std::size_t capacity_;
+  std::vector<io::RawFix> raw_fixes_;
+  std::vector<Eigen::Vector2d> trajectory_;
+};
+
+}  // namespace geoloc::apps

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/run_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "geoloc/io/atomic_file.hpp"
+#include "geoloc/io/output/geojson.hpp"
+#include "geoloc/io/output/raw_fixes.hpp"
+#include "geoloc/io/output/run_picture.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+/// In the run's own frame; empty where no position ever came.
+std::vector<Eigen::Vector2d> in_enu(const std::vector<io::TrueTarget>& truth, const Geolocator& geolocator) {
+  std::vector<Eigen::Vector2d> targets;
+  if (!geolocator.local_frame()) return targets;
+  for (const io::TrueTarget& target : truth) {
+    targets.push_back(geolocator.local_frame()->to_local(target.position).position_in_enu);
+  }
+  return targets;
+}
+
+std::vector<Eigen::Vector2d> positions(const std::vector<io::RawFix>& fixes) {
+  std::vector<Eigen::Vector2d> points;
+  points.reserve(fixes.size());
+  for (const io::RawFix& fix : fixes) points.push_back(fix.position_in_enu);
+  return points;
+}
+
+std::string picture_of(const Session& session, const std::vector<io::ObjectReport>& objects,
+                       const std::vector<io::TrueTarget>& truth, const std::string& title) {
+  io::RunPicture picture;
+  picture.title = title;
+  picture.subtitle = summarize(session, truth);
+  picture.targets = in_enu(truth, session.geolocator());
+  picture.raw_fixes = positions(session.history().raw_fixes());
+  picture.trajectory = session.history().trajectory();
+  picture.objects = objects;
+  return io::to_svg(picture);
+}
+
+}  // namespace
+
+void write_outputs(const OutputFiles& files, const Session& session,
+                   const std::vector<std::string>& class_names, const std::vector<io::TrueTarget>& truth,
+                   const std::string& title) {
+  const Geolocator& geolocator = session.geolocator();
+  const auto objects = io::report_objects(geolocator, class_names);
+  if (!files.objects.empty()) {
+    io::write_file_atomically(files.objects, io::objects_to_geojson(objects, geolocator));
+  }
+  if (!files.raw.empty()) {
+    const LocalFrame frame =
+        geolocator.local_frame().value_or(LocalFrame({0.0, 0.0}));  // no fixes without one
+    io::write_file_atomically(files.raw, io::raw_fixes_to_csv(session.history().raw_fixes(), frame));
+  }
+  if (!files.picture.empty())
+    io::write_file_atomically(files.picture, picture_of(session, objects, truth, title));
+}
+
+Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
+  std::vector<Eigen::Vector2d> objects;
+  for (const Track& track : session.geolocator().tracks()) {
+    if (track.status == TrackStatus::kConfirmed) objects.push_back(track.position_in_enu.mean);
+  }
+  if (!session.geolocator().local_frame())
+    return score_objects({}, std::vector<Eigen::Vector2d>(truth.size()));
+  return score_objects(objects, in_enu(truth, session.geolocator()));
+}
+
+std::string summarize(const Session& session, const std::vector<io::TrueTarget>& truth) {
+  const std::uint64_t frames = session.frames();
+  if (truth.empty()) {
+    return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",
+                       io::report_objects(session.geolocator(), {}).size(),
+                       session.history().raw_fixes().size(), frames, session.frames_unusable());
+  }
+  const Score score = score_run(session, truth);
+  return fmt::format(
+      "found {} / {}, RMSE {:.3f} m (relative {:.3f} m), extra {}, merged pairs {}, {} frames ({} without "
+      "vehicle state)",
+      score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
+      frames, session.frames_unusable());
+}
+
+std::string objects_to_table(const std::vector<io::ObjectReport>& objects) {
+  std::string table = fmt::format("{:>5}  {:<16} {:>13} {:>14} {:>8} {:>6}  {}\n", "id", "class", "latitude",
+                                  "longitude", "sigma m", "looks", "last seen (UTC)");
+  for (const io::ObjectReport& object : objects) {
+    fmt::format_to(std::back_inserter(table), "{:>5}  {:<16.16} {:>13.7f} {:>14.7f} {:>8.2f} {:>6}  {}\n",
+                   object.id, object.class_name, object.position.latitude_deg, object.position.longitude_deg,
+                   object.ellipse.sigma_major_m, object.hits, io::iso8601(object.last_seen));
+  }
+  return table;
+}
+
+}  // namespace geoloc::apps

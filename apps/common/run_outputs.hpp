@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/session.hpp"
+#include "geoloc/evaluation/score.hpp"
+#include "geoloc/io/output/object_report.hpp"
+#include "geoloc/io/recording/recording.hpp"
+
+namespace geoloc::apps {
+
+/// Files that a run writes; empty names are left out.
+struct OutputFiles {
+  std::string objects;  ///< GeoJSON
+  std::string raw;      ///< CSV of every located detection
+  std::string picture;  ///< SVG
+};
+
+/// Writes each file whole or not at all. Throws std::runtime_error naming the file and the reason.
+void write_outputs(const OutputFiles& files, const Session& session,
+                   const std::vector<std::string>& class_names, const std::vector<io::TrueTarget>& truth,
+                   const std::string& title);
+
+/// The run against the true targets.
+Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth);
+
+/// Lines for a person: objects found and, where the truth is known, how well.
+std::string summarize(const Session& session, const std::vector<io::TrueTarget>& truth);
+
+/// The objects as an aligned table with a header line.
+std::string objects_to_table(const std::vector<io::ObjectReport>& objects);
+
+}  // namespace geoloc::apps

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/session.hpp"
+
+#include <utility>
+
+namespace geoloc::apps {
+
+Session::Session(const EstimationConfig& config, OnTelemetry on_telemetry)
+    : max_frame_wait_(from_seconds(config.frames.max_wait_s)),
+      link_(config.mavlink),
+      geolocator_(config.geolocator),
+      on_telemetry_(std::move(on_telemetry)) {}
+
+bool Session::add_telemetry(HostTime received_at, const std::uint8_t* data, std::size_t size) {
+  return link_.consume(received_at, data, size, *this);
+}
+
+void Session::on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) {
+  if (on_telemetry_) on_telemetry_(received_at, frame, size);
+}
+
+bool Session::is_decided(HostTime captured_at) const {
+  const auto vehicle_time = link_.clock().to_vehicle(captured_at);
+  if (!vehicle_time) return false;
+  const auto missing = geolocator_.missing_state(*vehicle_time);
+  return missing != NoState::kNotYet && missing != NoState::kNoSamples;
+}
+
+bool Session::process(const PendingFrame& frame) {
+  const auto vehicle_time = link_.clock().to_vehicle(frame.captured_at);
+  if (!vehicle_time) {
+    ++frames_without_clock_;
+    return false;
+  }
+  frame_.captured_at = *vehicle_time;
+  frame_.captured_at_host = frame.captured_at;
+  frame_.detections = frame.detections;
+  if (!geolocator_.process(frame_)) return false;
+  history_.note(geolocator_, frame.captured_at);
+  return true;
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "common/estimation_config.hpp"
+#include "common/run_history.hpp"
+#include "geoloc/io/mavlink/vehicle_link.hpp"
+#include "geoloc/pipeline/geolocator.hpp"
+
+namespace geoloc::apps {
+
+/// A frame's detections before its time is known on the vehicle's clock.
+struct PendingFrame {
+  HostTime captured_at;
+  std::vector<Detection> detections;
+};
+
+/// Telemetry bytes and detections in, objects out: what a live run and a replay share. It reads no clock and
+/// does no input or output, so that the same calls give the same objects, live or replayed.
+class Session final : private io::TelemetrySink {
+ public:
+  /// A raw MAVLink frame of the link, before it has any effect.
+  using OnTelemetry = std::function<void(HostTime received_at, const std::uint8_t* frame, std::size_t size)>;
+
+  /// Throws std::invalid_argument naming every problem.
+  explicit Session(const EstimationConfig& config, OnTelemetry on_telemetry = {});
+
+  /// True where the bytes held a frame of the vehicle: their sender is the one to answer.
+  bool add_telemetry(HostTime received_at, const std::uint8_t* data, std::size_t size);
+
+  /// Whether the vehicle's state at that time is known, or will never be: there is nothing to wait for.
+  bool is_decided(HostTime captured_at) const;
+
+  /// Locates the frame with what is known now. False, and counted, where its state is not known.
+  bool process(const PendingFrame& frame);
+
+  /// Frames given to process(), and those of them that had no state.
+  std::uint64_t frames() const { return geolocator_.counters().frames + frames_without_clock_; }
+  std::uint64_t frames_unusable() const {
+    return geolocator_.counters().frames_unusable + frames_without_clock_;
+  }
+
+  const Geolocator& geolocator() const { return geolocator_; }
+  const RunHistory& history() const { return history_; }
+  const io::VehicleLink& link() const { return link_; }
+  io::VehicleLink& link() { return link_; }
+  Duration max_frame_wait() const { return max_frame_wait_; }
+
+ private:
+  void on_attitude(const AttitudeSample& sample) override { geolocator_.add(sample); }
+  void on_position(const PositionSample& sample) override { geolocator_.add(sample); }
+  void on_reboot() override { geolocator_.on_vehicle_reboot(); }
+  void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) override;
+
+  Duration max_frame_wait_;
+  io::VehicleLink link_;
+  Geolocator geolocator_;
+  RunHistory history_;
+  OnTelemetry on_telemetry_;
+  FrameDetections frame_;                   // reused
+  std::uint64_t frames_without_clock_ = 0;  // before the vehicle's clock was known
+};
+
+}  // namespace geoloc::apps

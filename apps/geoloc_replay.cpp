@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// Replays a recording: the same objects, the same bytes, every time.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <optional>
+
+#include "common/command_line.hpp"
+#include "common/estimation_config.hpp"
+#include "common/progress.hpp"
+#include "common/replay.hpp"
+#include "common/run_outputs.hpp"
+#include "geoloc/io/recording/recording_reader.hpp"
+
+namespace {
+
+using namespace geoloc;
+using namespace geoloc::apps;
+
+struct Options {
+  std::string recording;
+  std::string method;
+  std::string config_file;
+  std::string truth_file;
+  bool keep_going = false;
+  bool print_config = false;
+  OutputFiles outputs;
+};
+
+/// The sections that only a live run has; a recording's config.json holds them too.
+const std::vector<std::string> kLiveSections{"video", "detection"};
+
+void apply(const nlohmann::json& document, const std::string& name, EstimationConfig& config) {
+  std::vector<std::string> problems;
+  estimation_from_json(document, kLiveSections, config, problems);
+  refuse_problems(name, problems);
+}
+
+/// The recording's own configuration, under the file given, under the options given. The camera is always the
+/// recording's, unless a file names another.
+EstimationConfig choose_config(const Options& options, const io::Recording* recording) {
+  EstimationConfig config;
+  if (recording != nullptr && recording->config_json) {
+    apply(nlohmann::json::parse(*recording->config_json, nullptr, false), options.recording + "/config.json",
+          config);
+  }
+  if (recording != nullptr) config.geolocator.camera = recording->camera;
+  if (!options.config_file.empty())
+    apply(read_config_document(options.config_file), options.config_file, config);
+  if (!options.method.empty()) apply({{"method", options.method}}, "--method", config);
+  return config;
+}
+
+void add_options(CLI::App& program, Options& options) {
+  program.add_option("recording", options.recording, "Folder of a recording")->type_name("RECORDING");
+  program.add_option("--method", options.method, "paper")->type_name("NAME");
+  program.add_option("--config", options.config_file, "Settings, JSON (see --print-config)")
+      ->type_name("FILE");
+  program.add_option("--truth", options.truth_file, "True targets, GeoJSON; default: the recording's own")
+      ->type_name("FILE");
+  program.add_flag("--keep-going", options.keep_going, "Skip bad lines of frames.jsonl, and count them");
+  program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
+  add_output_options(program, options.outputs);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program("Replays a recording of geoloc_app or geoloc_sim and writes the objects found.",
+                   "geoloc_replay");
+  Options options;
+  add_options(program, options);
+  if (const auto status = parse(program, argc, argv)) return *status;
+
+  std::optional<io::Recording> recording;
+  std::optional<Session> session;
+  std::vector<io::TrueTarget> truth;
+  const auto unusable = guard("geoloc_replay", kUnusable, [&] {
+    if (options.recording.empty() && !options.print_config)
+      throw std::runtime_error("name a RECORDING; see --help");
+    if (!options.recording.empty()) {
+      recording = io::read_recording(options.recording,
+                                     options.keep_going ? io::BadLines::kSkip : io::BadLines::kRefuse);
+    }
+    const EstimationConfig config = choose_config(options, recording ? &*recording : nullptr);
+    if (options.print_config) {
+      std::puts(estimation_to_json(config).dump(2).c_str());
+      return;
+    }
+    truth = options.truth_file.empty() ? recording->truth : io::read_truth(options.truth_file);
+    session.emplace(config);
+  });
+  if (unusable) return *unusable;
+  if (options.print_config) return kDone;
+
+  if (recording->skipped_lines > 0)
+    std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", recording->skipped_lines);
+  ProgressLine progress("replaying", recording->frames.size());
+  replay(*recording, *session, [&](std::size_t done) { progress.show(done); });
+  progress.finish();
+
+  const auto failed = guard("geoloc_replay", kFailed, [&] {
+    write_outputs(options.outputs, *session, recording->class_names, truth, options.recording);
+    if (options.outputs.objects.empty()) {
+      const auto objects = io::report_objects(session->geolocator(), recording->class_names);
+      std::fputs(objects_to_table(objects).c_str(), stdout);
+    }
+  });
+  std::fprintf(stderr, "%s\n", summarize(*session, truth).c_str());
+  return failed.value_or(kDone);
+}
