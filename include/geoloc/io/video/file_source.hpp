@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/video/video_config.hpp"
+#include "geoloc/io/video/video_source.hpp"
+
+namespace geoloc::io {
+
+enum class Pace {
+  kRealTime,  ///< like a camera: a caller that is too slow misses frames
+  kAsTaken    ///< every frame, as fast as they are taken
+};
+
+struct Playback {
+  Pace pace = Pace::kRealTime;
+  std::optional<HostTime> starts_at;  ///< capture time of the file's time 0; without it, playing starts now
+};
+
+/// A video file of any container and codec that GStreamer has a plugin for (mkv, mp4, avi, …). Capture time
+/// is the start plus the frame's time stamp. Ends with VideoState::kEnded; last_error is set if not all of
+/// the file could be played.
+class FileSource final : public VideoSource {
+ public:
+  /// Throws std::runtime_error naming the file and the reason where it holds no video that can be decoded.
+  /// Of `config`, the size limit is used. `clock` must outlive the source.
+  FileSource(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
+             const HostClock& clock);
+  ~FileSource() override;
+  FileSource(const FileSource&) = delete;
+  FileSource& operator=(const FileSource&) = delete;
+
+  std::optional<VideoFrame> next(Duration timeout) override;
+  VideoStatus status() const override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace geoloc::io

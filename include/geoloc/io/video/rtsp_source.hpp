@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/video/video_config.hpp"
+#include "geoloc/io/video/video_source.hpp"
+
+namespace geoloc::io {
+
+/// A live camera over RTSP: H.264, and H.265 where a decoder is installed. Connects in a thread of its own
+/// and goes on trying for as long as it lives, whatever the server does.
+class RtspSource final : public VideoSource {
+ public:
+  /// Throws std::invalid_argument for a bad address or configuration, std::runtime_error naming the missing
+  /// GStreamer element and its package. A server that cannot be reached is no error. `clock` must outlive the
+  /// source.
+  RtspSource(std::string url, const VideoConfig& config, const HostClock& clock);
+  ~RtspSource() override;
+  RtspSource(const RtspSource&) = delete;
+  RtspSource& operator=(const RtspSource&) = delete;
+
+  std::optional<VideoFrame> next(Duration timeout) override;
+  VideoStatus status() const override;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace geoloc::io

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/io/video/video_frame.hpp"
+
+namespace geoloc::io {
+
+enum class VideoState {
+  kConnecting,  ///< no frame yet
+  kPlaying,     ///< frames arrive
+  kRetrying,    ///< the connection failed; another attempt follows
+  kEnded        ///< no frame will come any more
+};
+
+const char* to_string(VideoState state);
+
+struct VideoStatus {
+  VideoState state = VideoState::kConnecting;
+  std::string last_error;  ///< why the last attempt ended; stays after recovery; never holds credentials
+  double frames_per_second = 0.0;                    ///< decoded, mean over the last two seconds
+  TimeQuality time_quality = TimeQuality::kArrival;  ///< of the newest frame
+  std::uint64_t frames = 0;                          ///< decoded
+  std::uint64_t dropped = 0;                         ///< replaced by a newer one before anybody took them
+  std::uint64_t damaged = 0;                         ///< see VideoFrame::damaged
+  std::uint64_t refused = 0;  ///< not usable as pictures: empty, absurdly large, without time
+  std::uint64_t lost_packets = 0;
+  std::uint64_t attempts = 0;  ///< connections tried, the first one included
+};
+
+/// A camera's frames. One thread calls next(); any may call status().
+class VideoSource {
+ public:
+  virtual ~VideoSource() = default;
+
+  /// The newest frame not yet returned; waits up to `timeout` for one. A live source drops what the caller
+  /// was too slow for, so a backlog never builds up. Returns at once, empty, where state is kEnded. The size
+  /// of the pictures may change from one frame to the next.
+  virtual std::optional<VideoFrame> next(Duration timeout) = 0;
+
+  virtual VideoStatus status() const = 0;
+
+ protected:
+  VideoSource() = default;
+  VideoSource(const VideoSource&) = default;
+  VideoSource& operator=(const VideoSource&) = default;
+};
+
+}  // namespace geoloc::io

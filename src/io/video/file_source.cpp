@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/video/file_source.hpp"
+
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "geoloc/geometry/problems.hpp"
+#include "geoloc/io/video/frame_exchange.hpp"
+#include "gst_pipeline.hpp"
+
+namespace geoloc::io {
+namespace {
+
+/// Longer than any file; keeps a damaged time stamp from overflowing the clock.
+constexpr GstClockTime kLongestFile = 365ULL * 24 * 3600 * GST_SECOND;
+
+/// From the beginning of the file.
+std::optional<Duration> time_of(GstSample* sample) {
+  const GstClockTime pts = GST_BUFFER_PTS(gst_sample_get_buffer(sample));
+  const guint64 running = gst_segment_to_running_time(gst_sample_get_segment(sample), GST_FORMAT_TIME, pts);
+  if (running == GST_CLOCK_TIME_NONE || running > kLongestFile) return std::nullopt;
+  return Duration{static_cast<std::int64_t>(running)};
+}
+
+}  // namespace
+
+class FileSource::Impl {
+ public:
+  Impl(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
+       const HostClock& clock)
+      : pace_(playback.pace), starts_at_(playback.starts_at), config_(config), clock_(clock) {
+    throw_if_any(config_.problems());
+    if (!std::filesystem::is_regular_file(file))
+      throw std::runtime_error(file.string() + ": there is no such file");
+    init_gstreamer();
+    pipeline_.reset(gst_pipeline_new(nullptr));
+    build(file);
+    open(file);
+    gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
+  }
+
+  ~Impl() { exchange_.end(); }  // frees the streaming thread, for which the pipeline will wait
+
+  std::optional<VideoFrame> next(Duration timeout) { return exchange_.take(timeout); }
+  VideoStatus status() const { return exchange_.status(clock_.now()); }
+
+ private:
+  bool is_ended() const { return status().state == VideoState::kEnded; }
+
+  void build(const std::filesystem::path& file) {
+    GstElement* source = add_element(pipeline_.get(), "filesrc");
+    g_object_set(source, "location", file.c_str(), nullptr);
+    GstElement* decoder = add_element(pipeline_.get(), "decodebin");
+    converter_ = add_element(pipeline_.get(), "videoconvert");
+    GstAppSinkCallbacks callbacks{};
+    callbacks.new_sample = on_sample;
+    callbacks.eos = [](GstAppSink*, gpointer self) { static_cast<Impl*>(self)->exchange_.end(); };
+    GstElement* sink = add_bgr_sink(pipeline_.get(), callbacks, this);
+    const gboolean is_real_time = pace_ == Pace::kRealTime ? TRUE : FALSE;
+    g_object_set(sink, "sync", is_real_time, "drop", is_real_time, nullptr);
+    gst_element_link(source, decoder);
+    gst_element_link(converter_, sink);
+    g_signal_connect(decoder, "pad-added", G_CALLBACK(on_pad), this);
+    g_signal_connect(decoder, "no-more-pads", G_CALLBACK(on_all_pads), this);
+    const GstObjectPtr<GstBus> bus{gst_element_get_bus(pipeline_.get())};
+    gst_bus_set_sync_handler(bus.get(), on_message, this, nullptr);
+  }
+
+  /// Decodes the first frame, so that a file that cannot be played is told before anything starts.
+  void open(const std::filesystem::path& file) {
+    constexpr Duration kPatience = std::chrono::seconds{10};
+    const HostTime begun = clock_.now();
+    auto result = gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
+    while (result == GST_STATE_CHANGE_ASYNC && !is_ended() && clock_.now() - begun < kPatience) {
+      result = gst_element_get_state(pipeline_.get(), nullptr, nullptr, 20 * GST_MSECOND);
+    }
+    if (result == GST_STATE_CHANGE_SUCCESS && !is_ended()) return;
+    if (!is_ended()) exchange_.take(std::chrono::milliseconds{500});  // the reason comes from another thread
+    const std::string reason = status().last_error;
+    throw std::runtime_error(file.string() + ": no video that can be decoded" +
+                             (reason.empty() ? std::string{} : " (" + reason + ")"));
+  }
+
+  GstObjectPtr<GstPad> converter_pad() const {
+    return GstObjectPtr<GstPad>{gst_element_get_static_pad(converter_, "sink")};
+  }
+
+  /// Sound does not fit the converter, so it stays unlinked.
+  static void on_pad(GstElement*, GstPad* pad, gpointer self) {
+    const auto target = static_cast<Impl*>(self)->converter_pad();
+    if (gst_pad_is_linked(target.get()) == FALSE) gst_pad_link(pad, target.get());
+  }
+
+  static void on_all_pads(GstElement* decoder, gpointer self) {
+    if (gst_pad_is_linked(static_cast<Impl*>(self)->converter_pad().get()) != FALSE) return;
+    GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("there is no video in it"), (nullptr));
+  }
+
+  static GstBusSyncReply on_message(GstBus*, GstMessage* message, gpointer self) {
+    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
+      static_cast<Impl*>(self)->exchange_.report_error(error_text(message));
+      static_cast<Impl*>(self)->exchange_.end();
+    }
+    return GST_BUS_PASS;
+  }
+
+  static GstFlowReturn on_sample(GstAppSink* sink, gpointer self) {
+    const GstSamplePtr sample{gst_app_sink_pull_sample(sink)};
+    if (!sample) return GST_FLOW_EOS;
+    Impl& here = *static_cast<Impl*>(self);
+    try {
+      return here.deliver(sample.get()) ? GST_FLOW_OK : GST_FLOW_EOS;
+    } catch (const std::exception&) {  // no memory for the picture; an exception must not pass through C
+      here.exchange_.count_refused();
+      return GST_FLOW_OK;
+    }
+  }
+
+  /// False when nobody wants more.
+  bool deliver(GstSample* sample) {
+    const HostTime now = clock_.now();
+    auto bgr = copy_bgr(sample, config_.max_megapixels);
+    const auto time = time_of(sample);
+    if (!bgr || !time) {
+      exchange_.count_refused();
+      return true;
+    }
+    if (!starts_at_) starts_at_ = now - *time;
+    const auto captured_at = std::chrono::floor<std::chrono::microseconds>(*starts_at_ + *time);
+    VideoFrame frame{std::move(*bgr), captured_at, now, TimeQuality::kFile, false};
+    frame.damaged = GST_BUFFER_FLAG_IS_SET(gst_sample_get_buffer(sample), GST_BUFFER_FLAG_CORRUPTED);
+    if (pace_ == Pace::kAsTaken) return exchange_.offer_and_wait(std::move(frame));
+    exchange_.offer(std::move(frame));
+    return true;
+  }
+
+  const Pace pace_;
+  std::optional<HostTime> starts_at_;  // set by the constructor or by the first frame
+  const VideoConfig config_;
+  const HostClock& clock_;
+  FrameExchange exchange_;
+  GstElement* converter_ = nullptr;  // owned by the pipeline
+  GstPipelinePtr pipeline_;          // last: its threads end before what they use
+};
+
+FileSource::FileSource(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
+                       const HostClock& clock)
+    : impl_(std::make_unique<Impl>(file, playback, config, clock)) {}
+
+FileSource::~FileSource() = default;
+
+std::optional<VideoFrame> FileSource::next(Duration timeout) {
+  return impl_->next(timeout);
+}
+
+VideoStatus FileSource::status() const {
+  return impl_->status();
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gst_pipeline.hpp"
+
+#include <gst/video/video.h>
+
+#include <stdexcept>
+#include <string_view>
+
+namespace geoloc::io {
+
+void init_gstreamer() {
+  GError* error = nullptr;
+  if (gst_init_check(nullptr, nullptr, &error) != FALSE) return;
+  const std::string reason = error != nullptr ? error->message : "no reason given";
+  g_clear_error(&error);
+  throw std::runtime_error("GStreamer does not start: " + reason);
+}
+
+bool has_element(const char* name) {
+  return GstObjectPtr<GstElementFactory>{gst_element_factory_find(name)} != nullptr;
+}
+
+void require_element(const char* name, const char* debian_package) {
+  if (has_element(name)) return;
+  throw std::runtime_error(std::string{"GStreamer's element "} + name + " is missing: apt-get install " +
+                           debian_package);
+}
+
+GstElement* add_element(GstElement* pipeline, const char* name) {
+  GstElement* element = gst_element_factory_make(name, nullptr);
+  if (element == nullptr)
+    throw std::runtime_error(std::string{"GStreamer's element "} + name + " is missing");
+  gst_bin_add(GST_BIN(pipeline), element);
+  return element;
+}
+
+GstElement* add_bgr_sink(GstElement* pipeline, GstAppSinkCallbacks callbacks, void* user) {
+  GstElement* sink = add_element(pipeline, "appsink");
+  const GstCapsPtr caps{gst_caps_from_string("video/x-raw,format=BGR")};
+  g_object_set(sink, "caps", caps.get(), "max-buffers", 1U, "qos", FALSE, nullptr);
+  gst_app_sink_set_callbacks(GST_APP_SINK(sink), &callbacks, user, nullptr);
+  return sink;
+}
+
+std::string error_text(GstMessage* message) {
+  GError* error = nullptr;
+  gchar* details = nullptr;
+  gst_message_parse_error(message, &error, &details);
+  std::string text = error != nullptr ? error->message : "unknown error";
+  // "Could not open resource" is all that the message says; the reason is the last line of the details.
+  const std::string_view all = details != nullptr ? details : "";
+  if (const auto line_end = all.rfind('\n');
+      line_end + 1 < all.size() && line_end != std::string_view::npos) {
+    text = all.substr(line_end + 1);
+  }
+  g_free(details);
+  g_clear_error(&error);
+  return text;
+}
+
+std::optional<cv::Mat> copy_bgr(GstSample* sample, double max_megapixels) {
+  GstCaps* caps = gst_sample_get_caps(sample);
+  GstBuffer* buffer = gst_sample_get_buffer(sample);
+  GstVideoInfo info;
+  if (caps == nullptr || buffer == nullptr || gst_video_info_from_caps(&info, caps) == FALSE)
+    return std::nullopt;
+  const int width_px = GST_VIDEO_INFO_WIDTH(&info);
+  const int height_px = GST_VIDEO_INFO_HEIGHT(&info);
+  const bool is_usable = GST_VIDEO_INFO_FORMAT(&info) == GST_VIDEO_FORMAT_BGR && width_px > 0 &&
+                         height_px > 0 && 1e-6 * width_px * height_px <= max_megapixels;
+  GstVideoFrame frame;
+  if (!is_usable || gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ) == FALSE) return std::nullopt;
+  const auto stride = static_cast<std::size_t>(GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0));
+  cv::Mat copy;
+  cv::Mat{height_px, width_px, CV_8UC3, GST_VIDEO_FRAME_PLANE_DATA(&frame, 0), stride}.copyTo(copy);
+  gst_video_frame_unmap(&frame);
+  return copy;
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gst/app/gstappsink.h>
+
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+
+#include "gst_handles.hpp"
+
+// What the sources of live and of recorded video share.
+namespace geoloc::io {
+
+/// Initialises GStreamer, once. Throws std::runtime_error with its reason.
+void init_gstreamer();
+
+bool has_element(const char* name);
+
+/// Throws std::runtime_error naming the element and the package it comes in.
+void require_element(const char* name, const char* debian_package);
+
+/// The pipeline owns the element. Throws std::runtime_error if there is no such element.
+GstElement* add_element(GstElement* pipeline, const char* name);
+
+/// An appsink for BGR pictures that holds one frame; `callbacks` are called with `user` in the streaming
+/// thread.
+GstElement* add_bgr_sink(GstElement* pipeline, GstAppSinkCallbacks callbacks, void* user);
+
+/// The reason that an error message gives.
+std::string error_text(GstMessage* message);
+
+/// A copy of the picture; nullopt where it is not BGR, empty, larger than max_megapixels, or shorter than it
+/// claims.
+std::optional<cv::Mat> copy_bgr(GstSample* sample, double max_megapixels);
+
+}  // namespace geoloc::io

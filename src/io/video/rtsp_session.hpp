@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gst/app/gstappsink.h>
+
+#include <atomic>
+#include <mutex>
+#include <string>
+
+#include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/video/frame_exchange.hpp"
+#include "geoloc/io/video/frame_ledger.hpp"
+#include "geoloc/io/video/rtp_clock.hpp"
+#include "geoloc/io/video/rtp_payload.hpp"
+#include "geoloc/io/video/video_config.hpp"
+#include "gst_handles.hpp"
+
+namespace geoloc::io {
+
+/// Throws std::runtime_error naming the element and its package where a GStreamer element is missing.
+void require_rtsp_elements();
+
+/// One connection to a server: rtspsrc ! depayloader ! parser ! decoder ! videoconvert ! appsink. Frames go
+/// to the exchange with their capture time. Every callback runs in a thread of GStreamer's, which ends with
+/// the pipeline.
+class RtspSession {
+ public:
+  /// Begins to connect. Everything passed by reference must outlive the session.
+  RtspSession(const std::string& url, const VideoConfig& config, const HostClock& clock,
+              FrameExchange& exchange);
+  RtspSession(const RtspSession&) = delete;
+  RtspSession& operator=(const RtspSession&) = delete;
+
+  /// Returns why the connection is over, or an empty text when `stop` was set.
+  std::string wait_until_over(const std::atomic<bool>& stop) const;
+
+  bool has_delivered() const { return has_delivered_; }
+
+ private:
+  struct Format;
+  static const Format* format_for(GstCaps* caps);
+
+  static void on_manager(GstElement*, GstElement* manager, gpointer self);
+  static void on_jitter_buffer(GstElement*, GstElement* buffer, guint, guint, gpointer self);
+  static void on_report(GstElement*, GstStructure* report, gpointer self);
+  static gboolean on_select_stream(GstElement*, guint, GstCaps* caps, gpointer self);
+  static void on_pad(GstElement*, GstPad* pad, gpointer self);
+  static GstPadProbeReturn on_packets(GstPad*, GstPadProbeInfo* info, gpointer self);
+  static GstPadProbeReturn on_parsed(GstPad* pad, GstPadProbeInfo* info, gpointer self);
+  static GstFlowReturn on_sample(GstAppSink* sink, gpointer self);
+
+  void build_decoder(GstPad* stream);
+  void observe_packet(GstBuffer** packet);
+  void deliver(GstSample* sample);
+  VideoFrame stamp(GstBuffer* buffer, HostTime now);
+
+  const VideoConfig& config_;
+  const HostClock& clock_;
+  FrameExchange& exchange_;
+
+  std::atomic<bool> has_selected_{false};
+  std::atomic<bool> is_too_large_{false};
+  std::atomic<bool> has_delivered_{false};
+  std::atomic<HostTime> alive_at_;  // of the last frame, or of the beginning
+  std::mutex mutex_;
+  VideoCodec codec_ = VideoCodec::kH264;  // guarded by mutex_, as are the next two
+  FrameLedger ledger_;
+  RtpClock rtp_clock_;
+
+  GstElement* converter_ = nullptr;  // owned by the pipeline
+  GstPipelinePtr pipeline_;          // last: its threads end before what they use
+};
+
+}  // namespace geoloc::io

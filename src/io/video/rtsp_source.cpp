@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/video/rtsp_source.hpp"
+
+#include <algorithm>
+#include <condition_variable>
+#include <exception>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "geoloc/geometry/problems.hpp"
+#include "geoloc/io/video/frame_exchange.hpp"
+#include "geoloc/io/video/stream_url.hpp"
+#include "gst_pipeline.hpp"
+#include "rtsp_session.hpp"
+
+namespace geoloc::io {
+
+class RtspSource::Impl {
+ public:
+  Impl(std::string url, const VideoConfig& config, const HostClock& clock)
+      : url_(std::move(url)), config_(config), clock_(clock) {
+    if (!is_rtsp_url(url_)) {
+      throw std::invalid_argument("not an RTSP address: " + without_credentials(url_) +
+                                  " (expected rtsp://[user:password@]host[:port]/path)");
+    }
+    throw_if_any(config_.problems());
+    init_gstreamer();
+    require_rtsp_elements();
+    thread_ = std::thread{[this] { run(); }};
+  }
+
+  ~Impl() {
+    {
+      const std::lock_guard lock{mutex_};
+      stop_ = true;
+    }
+    stopped_.notify_all();
+    exchange_.end();
+    thread_.join();
+  }
+
+  std::optional<VideoFrame> next(Duration timeout) { return exchange_.take(timeout); }
+  VideoStatus status() const { return exchange_.status(clock_.now()); }
+
+ private:
+  void run() {
+    double retry_s = config_.retry_min_s;
+    while (!stop_) {
+      const bool has_delivered = attempt();
+      if (has_delivered) retry_s = config_.retry_min_s;
+      std::unique_lock lock{mutex_};
+      stopped_.wait_for(lock, from_seconds(retry_s), [this] { return stop_.load(); });
+      retry_s = std::min(2 * retry_s, config_.retry_max_s);
+    }
+  }
+
+  /// One connection from beginning to end; true if frames came of it. Nothing may escape: the thread goes on.
+  bool attempt() {
+    exchange_.begin_attempt();
+    bool has_delivered = false;
+    std::string why;
+    try {
+      const RtspSession session{url_, config_, clock_, exchange_};
+      why = session.wait_until_over(stop_);
+      has_delivered = session.has_delivered();
+    } catch (const std::exception& error) {
+      why = error.what();
+    }
+    exchange_.report_error(without_credentials_of(url_, why));
+    exchange_.set_state(VideoState::kRetrying);
+    return has_delivered;
+  }
+
+  const std::string url_;
+  const VideoConfig config_;
+  const HostClock& clock_;
+  FrameExchange exchange_;
+  std::mutex mutex_;
+  std::condition_variable stopped_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+RtspSource::RtspSource(std::string url, const VideoConfig& config, const HostClock& clock)
+    : impl_(std::make_unique<Impl>(std::move(url), config, clock)) {}
+
+RtspSource::~RtspSource() = default;
+
+std::optional<VideoFrame> RtspSource::next(Duration timeout) {
+  return impl_->next(timeout);
+}
+
+VideoStatus RtspSource::status() const {
+  return impl_->status();
+}
+
+}  // namespace geoloc::io
