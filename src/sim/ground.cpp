@@ -35,7 +35,7 @@ Palette palette_of(GroundStyle style) {
     case GroundStyle::kGravel:
       return {{136, 144, 150}, {118, 126, 132}, {146, 156, 164}, 0.06f};
     case GroundStyle::kAsphalt:
-      return {{94, 92, 92}, {82, 80, 79}, {108, 107, 106}, 0.05f};
+      return {{94, 92, 92}, {84, 82, 81}, {104, 103, 102}, 0.03f};
     case GroundStyle::kConcrete:
       return {{158, 166, 168}, {146, 152, 154}, {168, 175, 178}, 0.05f};
     case GroundStyle::kField:
@@ -54,7 +54,7 @@ cv::Mat ground_patches(GroundStyle style, cv::RNG& random) {
   const Palette palette = palette_of(style);
   const cv::Mat where_patch = fractal_noise(kPatchesSize, 8, 512, 0.55, random);
   const cv::Mat where_spot = fractal_noise(kPatchesSize, 16, 512, 0.6, random);
-  const cv::Mat mottle = fractal_noise(kPatchesSize, 4, 512, 0.75, random);
+  const cv::Mat mottle = fractal_noise(kPatchesSize, 4, 512, 0.85, random);
   cv::Mat colours(kPatchesSize, kPatchesSize, CV_8UC3);
   for (int row = 0; row < colours.rows; ++row) {
     for (int column = 0; column < colours.cols; ++column) {

@@ -103,7 +103,7 @@ cv::Mat wave(Canvas& canvas, int waves, double bend) {
 
 /// Fractal roughness: contrast is its standard deviation, persistence near 1 stresses the finest grains.
 void roughen(Canvas& canvas, double contrast, double persistence) {
-  const cv::Mat noise = fractal_noise(canvas.size(), 16, canvas.size() / 2, persistence, canvas.random);
+  const cv::Mat noise = fractal_noise(canvas.size(), 32, canvas.size() / 2, persistence, canvas.random);
   cv::multiply(canvas.light, 1.0 + contrast * noise, canvas.light);
 }
 
@@ -112,7 +112,7 @@ void roughen(Canvas& canvas, double contrast, double persistence) {
 cv::Mat coloured(Canvas& canvas, const cv::Mat& tint, const cv::Vec3d& gain, double hue_noise) {
   std::array<cv::Mat, 3> channels;
   for (int k = 0; k < 3; ++k) {
-    const cv::Mat hue = fractal_noise(canvas.size(), 32, 256, 0.7, canvas.random);
+    const cv::Mat hue = fractal_noise(canvas.size(), 128, 512, 0.9, canvas.random);
     cv::Mat factor = 1.0 + hue_noise * hue;
     if (!tint.empty()) factor += gain[k] * tint;
     channels[static_cast<std::size_t>(k)] = canvas.light.mul(factor);
@@ -131,40 +131,40 @@ cv::Mat ground_grain(GroundStyle style, int size, double texel_m, cv::RNG& rando
   const auto a_square_metre = [&](double count) { return static_cast<int>(count * area); };
   switch (style) {
     case GroundStyle::kGrass:
-      add_blades(canvas, a_square_metre(500), 0.10, 0.55);
-      roughen(canvas, 0.22, 0.8);
-      return coloured(canvas, {}, {}, 0.05);
+      roughen(canvas, 0.25, 1.0);
+      add_blades(canvas, a_square_metre(500), 0.10, 0.5);
+      return coloured(canvas, {}, {}, 0.03);
     case GroundStyle::kDryGrass:
-      add_blades(canvas, a_square_metre(350), 0.14, 0.45);
+      roughen(canvas, 0.2, 1.0);
+      add_blades(canvas, a_square_metre(400), 0.14, 0.4);
       add_stones(canvas, a_square_metre(2), 0.02, 0.08, 0.3);
-      roughen(canvas, 0.2, 0.75);
-      return coloured(canvas, {}, {}, 0.05);
+      return coloured(canvas, {}, {}, 0.03);
     case GroundStyle::kSoil:
+      roughen(canvas, 0.17, 1.0);
       add_stones(canvas, a_square_metre(25), 0.015, 0.10, 0.35);
-      roughen(canvas, 0.16, 0.8);
-      return coloured(canvas, {}, {}, 0.02);
+      return coloured(canvas, {}, {}, 0.01);
     case GroundStyle::kSand:
+      roughen(canvas, 0.06, 1.0);
       add_stones(canvas, a_square_metre(0.5), 0.02, 0.08, 0.3);
-      roughen(canvas, 0.05, 0.85);
-      return coloured(canvas, wave(canvas, 128, 2.5), {0.04, 0.035, 0.03}, 0.01);
+      return coloured(canvas, wave(canvas, 128, 2.5), {0.05, 0.045, 0.04}, 0.005);
     case GroundStyle::kGravel:
       add_stones(canvas, a_square_metre(420), 0.02, 0.08, 0.4);
-      roughen(canvas, 0.1, 0.8);
-      return coloured(canvas, {}, {}, 0.03);
+      roughen(canvas, 0.08, 1.0);
+      return coloured(canvas, {}, {}, 0.02);
     case GroundStyle::kAsphalt:
+      roughen(canvas, 0.13, 1.2);
       add_cracks(canvas, a_square_metre(0.05), 6.0);
-      roughen(canvas, 0.13, 1.0);
-      return coloured(canvas, {}, {}, 0.01);
+      return coloured(canvas, {}, {}, 0.005);
     case GroundStyle::kConcrete:
+      roughen(canvas, 0.06, 1.0);
       add_joints(canvas, 8);
       add_cracks(canvas, a_square_metre(0.02), 2.5);
-      roughen(canvas, 0.06, 0.8);
-      return coloured(canvas, {}, {}, 0.01);
+      return coloured(canvas, {}, {}, 0.005);
     case GroundStyle::kField:
-      add_blades(canvas, a_square_metre(200), 0.15, 0.5);
+      roughen(canvas, 0.22, 1.0);
+      add_blades(canvas, a_square_metre(250), 0.15, 0.45);
       add_stones(canvas, a_square_metre(6), 0.02, 0.08, 0.3);
-      roughen(canvas, 0.2, 0.75);
-      return coloured(canvas, wave(canvas, 32, 0.5), {-0.12, 0.12, -0.18}, 0.04);
+      return coloured(canvas, wave(canvas, 32, 0.35), {-0.10, -0.02, -0.16}, 0.03);
   }
   return coloured(canvas, {}, {}, 0.0);
 }

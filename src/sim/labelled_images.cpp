@@ -23,7 +23,7 @@ constexpr double kLeastSpacing_m = 1.0;  // between targets: two squares of 0.8 
 
 RenderSettings random_settings(Random& random) {
   RenderSettings settings;
-  settings.exposure = random.uniform(0.45, 1.35);
+  settings.exposure = random.uniform(0.6, 1.4);
   settings.warmth = random.uniform(-1.0, 1.0);
   settings.vignetting = random.uniform(0.0, 0.45);
   settings.focus_sigma_px = random.chance(0.2) ? random.uniform(1.0, 1.8) : random.uniform(0.3, 1.0);

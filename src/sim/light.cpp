@@ -14,7 +14,7 @@ const Eigen::Array3f kZenith(0.78f, 0.56f, 0.36f);
 
 Light::Light(const GroundGrid& grid, const cv::Size& image, const RenderSettings& settings)
     : visibility_m_(static_cast<float>(settings.visibility_m)) {
-  const double warm = 0.15 * settings.warmth;
+  const double warm = 0.08 * settings.warmth;
   gain_ = (255.0 * settings.exposure * Eigen::Array3d(1.0 - warm, 1.0, 1.0 + warm)).cast<float>();
   const Eigen::Vector2d middle(0.5 * (image.width - 1), 0.5 * (image.height - 1));
   fall_off_.reserve(static_cast<std::size_t>(grid.columns() * grid.rows()));

@@ -10,7 +10,7 @@ namespace geoloc::sim {
 namespace {
 
 constexpr int kStep = GroundGrid::kStep_px;
-constexpr int kSamples = 4;  // a pixel's side
+constexpr int kSamples = 3;  // along each side of a pixel
 
 /// Corners of a grid cell in the object's axes [m].
 struct CellInObject {
