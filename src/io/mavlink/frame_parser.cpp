@@ -66,8 +66,10 @@ Finding inspect(const std::uint8_t* bytes, std::size_t available, Frame& frame) 
   if (header != Finding::kFrame) return header;
   const auto spec = message_spec(frame.message_id);
   if (!spec) return Finding::kUnknownMessage;
-  // MAVLink 1 knows no extensions and cuts no zeros: a wrong size is seen without waiting for the bytes.
-  if (!frame.is_v2 && frame.payload_size != spec->base_size) return Finding::kBadFrame;
+  // MAVLink 1 cuts no zeros (and should carry no extensions, but pymavlink sends them): a size that cannot be
+  // is seen without waiting for the bytes.
+  const bool is_possible_v1 = frame.payload_size >= spec->base_size && frame.payload_size <= spec->full_size;
+  if (!frame.is_v2 && !is_possible_v1) return Finding::kBadFrame;
   if (available < frame.size) return Finding::kNeedsMoreBytes;
   return has_right_checksum(frame, spec->checksum_seed) ? Finding::kFrame : Finding::kBadFrame;
 }
@@ -94,10 +96,10 @@ std::optional<Frame> FrameParser::next() {
       case Finding::kNeedsMoreBytes:
         return std::nullopt;
       case Finding::kBadFrame:
-        if (unknown_.left == 0) ++counts_.bad_frames;
+        claim(frame, false);
         break;
       case Finding::kUnknownMessage:
-        if (unknown_.left == 0) start_unknown(frame);
+        claim(frame, true);
         break;
       case Finding::kNoFrame:
         break;
@@ -107,25 +109,26 @@ std::optional<Frame> FrameParser::next() {
   return std::nullopt;
 }
 
-void FrameParser::start_unknown(const Frame& header) {
-  unknown_ = {header.sender, header.sequence, header.size, header.size};
+void FrameParser::claim(const Frame& header, bool is_unknown) {
+  if (claim_.left > 0) return;
+  claim_ = {is_unknown, header.sender, header.sequence, header.size, header.size};
+  if (!is_unknown) ++counts_.bad_frames;
 }
 
 void FrameParser::pass_byte() {
   ++begin_;
-  if (unknown_.left == 0) {
-    ++counts_.junk_bytes;
-  } else if (--unknown_.left == 0) {
+  if (!claim_.is_unknown) ++counts_.junk_bytes;
+  if (claim_.left == 0 || --claim_.left > 0) return;
+  if (claim_.is_unknown) {
     ++counts_.unknown_frames;
-    sequences_.observe_unchecked(unknown_.sender, unknown_.sequence);
+    sequences_.observe_unchecked(claim_.sender, claim_.sequence);
   }
+  claim_ = {};
 }
 
 void FrameParser::take(const Frame& frame) {
-  if (unknown_.left > 0) {
-    counts_.junk_bytes += unknown_.size - unknown_.left;
-    unknown_.left = 0;
-  }
+  if (claim_.is_unknown && claim_.left > 0) counts_.junk_bytes += claim_.size - claim_.left;
+  claim_ = {};
   begin_ += frame.size;
   ++counts_.frames;
   if (frame.is_signed) ++counts_.signed_frames;

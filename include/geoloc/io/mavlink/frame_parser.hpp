@@ -42,23 +42,25 @@ class FrameParser {
  private:
   static constexpr std::size_t kCapacity = 4096;
 
-  /// A frame of an unknown message may be one, or junk that looks like one. It is taken for one if no good
-  /// frame starts in the bytes that it claims.
-  struct UnknownFrame {
+  /// The bytes that the header of a frame claims which was not handed out: a bad one, or one of an unknown
+  /// message, which is taken for a frame if no good one starts within. What looks bad inside is not counted
+  /// again.
+  struct Claim {
+    bool is_unknown = false;
     MavAddress sender;
     std::uint8_t sequence = 0;
     std::size_t size = 0;
-    std::size_t left = 0;  ///< bytes still to pass; 0: not within one
+    std::size_t left = 0;  ///< bytes still to pass; 0: no claim
   };
 
-  void start_unknown(const Frame& header);
+  void claim(const Frame& header, bool is_unknown);
   void pass_byte();
   void take(const Frame& frame);
 
   std::array<std::uint8_t, kCapacity> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
-  UnknownFrame unknown_;
+  Claim claim_;
   FrameCounts counts_;
   SequenceTracker sequences_;
 };

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "geoloc/io/mavlink/telemetry_sink.hpp"
+#include "io/mavlink/test_frames.hpp"
+
+namespace geoloc::io::testing {
+
+struct ReceivedFrame {
+  HostTime at;
+  Bytes bytes;
+};
+
+/// Keeps all that a VehicleLink delivers.
+class CollectingSink : public TelemetrySink {
+ public:
+  void on_attitude(const AttitudeSample& sample) override { attitudes.push_back(sample); }
+  void on_position(const PositionSample& sample) override { positions.push_back(sample); }
+  void on_reboot() override {
+    attitudes_before_reboot.push_back(attitudes.size());
+    reboots_at.push_back(frames.back().at);
+  }
+  void on_frame(HostTime at, const std::uint8_t* frame, std::size_t size) override {
+    frames.push_back({at, Bytes(frame, frame + size)});
+  }
+
+  std::vector<AttitudeSample> attitudes;
+  std::vector<PositionSample> positions;
+  std::vector<std::size_t> attitudes_before_reboot;
+  std::vector<ReceivedFrame> frames;
+  std::vector<HostTime> reboots_at;
+};
+
+}  // namespace geoloc::io::testing

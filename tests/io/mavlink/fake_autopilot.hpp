@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/vehicle_link.hpp"
+#include "io/mavlink/collecting_sink.hpp"
+#include "io/mavlink/test_frames.hpp"
+
+namespace geoloc::io::testing {
+
+/// An autopilot in simulated time: HEARTBEAT unasked, the rest at the intervals that it was told.
+class FakeAutopilot {
+ public:
+  struct Character {
+    std::uint8_t autopilot = kArduPilot;
+    bool speaks_v2 = true;
+    std::optional<std::uint8_t> answer = 0;  ///< MAV_RESULT to interval requests; nullopt: none
+    bool obeys_intervals = true;
+    bool obeys_data_streams = false;
+    bool answers_timesync = true;
+    bool is_mute = false;  ///< switched off, or out of reach: hears and says nothing
+  };
+
+  struct Heard {
+    HostTime at;
+    MavAddress sender;
+    bool is_v2 = false;
+    std::uint32_t message_id = 0;
+    std::uint32_t wanted_message_id = 0;  ///< of MAV_CMD_SET_MESSAGE_INTERVAL
+    double wanted_rate_hz = 0.0;
+    std::uint8_t data_stream = 0;
+    int vehicle_type = -1;  ///< of HEARTBEAT
+  };
+
+  explicit FakeAutopilot(HostTime booted_at) : booted_at_(booted_at), frames_({1, 1}) {}
+
+  Character character;
+  std::vector<Heard> heard;
+
+  void reboot(HostTime now);
+  void receive(const std::uint8_t* frame, std::size_t size, HostTime now);
+  /// What it says up to `now`.
+  Bytes transmit(HostTime now);
+  VehicleTime clock(HostTime now) const { return VehicleTime{now - booted_at_}; }
+
+  std::vector<Heard> heard_of(std::uint32_t message_id) const;
+  /// Interval requests for that message.
+  std::vector<Heard> requests_for(std::uint32_t message_id) const;
+
+ private:
+  struct Stream {
+    Duration period;
+    HostTime next;
+  };
+
+  Bytes say(std::uint32_t message_id, HostTime now);
+
+  HostTime booted_at_;
+  FrameFactory frames_;
+  std::map<std::uint32_t, Stream> streams_;
+  HostTime next_heartbeat_{};
+  Bytes answers_;
+};
+
+/// A link and an autopilot, 10 ms of simulated time at a step: a frame arrives a step after it was sent.
+class Session {
+ public:
+  static constexpr HostTime kStart{std::chrono::seconds{1'795'300'000}};
+
+  explicit Session(const MavlinkConfig& config = {})
+      : link(config), autopilot(kStart - std::chrono::seconds{100}) {}
+
+  void run(Duration duration);
+
+  HostTime now = kStart;
+  VehicleLink link;
+  FakeAutopilot autopilot;
+  CollectingSink sink;
+
+ private:
+  std::vector<Bytes> to_autopilot_;
+};
+
+}  // namespace geoloc::io::testing

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "io/mavlink/test_frames.hpp"
+
+#include <all/mavlink.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace geoloc::io::testing {
+namespace {
+
+std::uint32_t boot_ms(VehicleTime time) {
+  return static_cast<std::uint32_t>(
+      std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count());
+}
+
+Bytes to_bytes(const mavlink_message_t& message) {
+  Bytes bytes(MAVLINK_MAX_PACKET_LEN);
+  bytes.resize(mavlink_msg_to_send_buffer(bytes.data(), &message));
+  return bytes;
+}
+
+}  // namespace
+
+template <typename Encode, typename Fields>
+Bytes FrameFactory::pack(Encode encode, const Fields& fields) {
+  mavlink_status_t status{};
+  status.flags = use_v2_ ? 0 : MAVLINK_STATUS_FLAG_OUT_MAVLINK1;
+  status.current_tx_seq = sequence_++;
+  mavlink_message_t message{};
+  encode(self_.system, self_.component, &status, &message, &fields);
+  return to_bytes(message);
+}
+
+Bytes FrameFactory::heartbeat(std::uint8_t autopilot, std::uint8_t vehicle_type) {
+  mavlink_heartbeat_t fields{};
+  fields.autopilot = autopilot;
+  fields.type = vehicle_type;
+  fields.mavlink_version = 3;
+  return pack(mavlink_msg_heartbeat_encode_status, fields);
+}
+
+Bytes FrameFactory::attitude(VehicleTime time, double roll_rad, double pitch_rad, double yaw_rad) {
+  mavlink_attitude_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  fields.roll = static_cast<float>(roll_rad);
+  fields.pitch = static_cast<float>(pitch_rad);
+  fields.yaw = static_cast<float>(yaw_rad);
+  return pack(mavlink_msg_attitude_encode_status, fields);
+}
+
+Bytes FrameFactory::attitude_quaternion(VehicleTime time) {
+  mavlink_attitude_quaternion_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  fields.q1 = 1.0F;
+  return pack(mavlink_msg_attitude_quaternion_encode_status, fields);
+}
+
+Bytes FrameFactory::position(VehicleTime time, double latitude_deg, double longitude_deg,
+                             double height_above_home_m) {
+  mavlink_global_position_int_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  fields.lat = static_cast<std::int32_t>(std::lround(latitude_deg * 1e7));
+  fields.lon = static_cast<std::int32_t>(std::lround(longitude_deg * 1e7));
+  fields.relative_alt = static_cast<std::int32_t>(std::lround(height_above_home_m * 1e3));
+  return pack(mavlink_msg_global_position_int_encode_status, fields);
+}
+
+Bytes FrameFactory::gnss(std::uint8_t fix_type, double h_acc_m) {
+  mavlink_gps_raw_int_t fields{};
+  fields.fix_type = fix_type;
+  fields.h_acc = static_cast<std::uint32_t>(std::lround(h_acc_m * 1e3));
+  return pack(mavlink_msg_gps_raw_int_encode_status, fields);
+}
+
+Bytes FrameFactory::ekf_status(std::uint16_t flags) {
+  mavlink_ekf_status_report_t fields{};
+  fields.flags = flags;
+  return pack(mavlink_msg_ekf_status_report_encode_status, fields);
+}
+
+Bytes FrameFactory::system_time(VehicleTime time) {
+  mavlink_system_time_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  return pack(mavlink_msg_system_time_encode_status, fields);
+}
+
+Bytes FrameFactory::timesync(std::int64_t tc1, std::int64_t ts1) {
+  return pack(mavlink_msg_timesync_encode_status, mavlink_timesync_t{tc1, ts1});
+}
+
+Bytes FrameFactory::timesync_to(MavAddress target, std::int64_t tc1, std::int64_t ts1) {
+  constexpr std::uint8_t kSize = MAVLINK_MSG_ID_TIMESYNC_LEN + 2;
+  const mavlink_timesync_t fields{tc1, ts1};
+  mavlink_message_t message{};
+  message.msgid = MAVLINK_MSG_ID_TIMESYNC;
+  auto* const payload = reinterpret_cast<std::uint8_t*>(message.payload64);
+  std::memcpy(payload, &fields, MAVLINK_MSG_ID_TIMESYNC_LEN);
+  payload[kSize - 2] = target.system;
+  payload[kSize - 1] = target.component;
+  mavlink_status_t status{};
+  status.current_tx_seq = sequence_++;
+  mavlink_finalize_message_buffer(&message, self_.system, self_.component, &status, kSize, kSize,
+                                  MAVLINK_MSG_ID_TIMESYNC_CRC);
+  return to_bytes(message);
+}
+
+Bytes FrameFactory::command_ack(std::uint16_t command, std::uint8_t result, MavAddress target) {
+  mavlink_command_ack_t fields{};
+  fields.command = command;
+  fields.result = result;
+  fields.target_system = target.system;
+  fields.target_component = target.component;
+  return pack(mavlink_msg_command_ack_encode_status, fields);
+}
+
+Bytes FrameFactory::unknown(std::uint8_t payload_size, std::uint8_t fill) {
+  constexpr std::uint32_t kNoSuchMessage = 0xABCDEF;
+  mavlink_message_t message{};
+  message.msgid = kNoSuchMessage;
+  std::fill_n(reinterpret_cast<std::uint8_t*>(message.payload64), payload_size, fill);
+  mavlink_status_t status{};
+  status.current_tx_seq = sequence_++;
+  mavlink_finalize_message_buffer(&message, self_.system, self_.component, &status, payload_size,
+                                  payload_size, 0);
+  return to_bytes(message);
+}
+
+}  // namespace geoloc::io::testing

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/frame.hpp"
+
+namespace geoloc::io::testing {
+
+using Bytes = std::vector<std::uint8_t>;
+
+constexpr std::uint8_t kArduPilot = 3;
+constexpr std::uint8_t kPx4 = 12;
+constexpr std::uint8_t kQuadrotor = 2;
+
+/// Frames of one sender, by the generated encoders: the other side of what is tested.
+class FrameFactory {
+ public:
+  explicit FrameFactory(MavAddress self, bool use_v2 = true) : self_(self), use_v2_(use_v2) {}
+
+  Bytes heartbeat(std::uint8_t autopilot = kArduPilot, std::uint8_t vehicle_type = kQuadrotor);
+  Bytes attitude(VehicleTime time, double roll_rad = 0.0, double pitch_rad = 0.0, double yaw_rad = 0.0);
+  /// Level, nose to the north.
+  Bytes attitude_quaternion(VehicleTime time);
+  Bytes position(VehicleTime time, double latitude_deg, double longitude_deg,
+                 double height_above_home_m = 20.0);
+  Bytes gnss(std::uint8_t fix_type, double h_acc_m = 0.0);
+  Bytes ekf_status(std::uint16_t flags);
+  Bytes system_time(VehicleTime time);
+  Bytes timesync(std::int64_t tc1, std::int64_t ts1);
+  /// In the form of later dialects, which say whom it is for.
+  Bytes timesync_to(MavAddress target, std::int64_t tc1, std::int64_t ts1);
+  Bytes command_ack(std::uint16_t command, std::uint8_t result, MavAddress target = {});
+  /// A message that no dialect knows: the checksum is right for a seed of 0.
+  Bytes unknown(std::uint8_t payload_size, std::uint8_t fill);
+
+ private:
+  template <typename Encode, typename Fields>
+  Bytes pack(Encode encode, const Fields& fields);
+
+  MavAddress self_;
+  bool use_v2_;
+  std::uint8_t sequence_ = 0;
+};
+
+inline Bytes operator+(Bytes a, const Bytes& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+}  // namespace geoloc::io::testing

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/mavlink/vehicle_link.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "io/mavlink/collecting_sink.hpp"
+#include "io/mavlink/test_frames.hpp"
+
+namespace geoloc::io {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Bytes;
+using testing::FrameFactory;
+
+constexpr HostTime kStart{std::chrono::seconds{1'795'300'000}};
+constexpr std::int64_t kMark = 191;  // what marks a TIMESYNC of ours in the nanoseconds
+
+/// A link that is spoken to by several at once; the vehicle's clock is 0 at kStart.
+class VehicleLinkTest : public ::testing::Test {
+ protected:
+  bool hear(const Bytes& frame, Duration after_start) {
+    return link_.consume(kStart + after_start, frame.data(), frame.size(), sink_);
+  }
+
+  /// A vehicle that has been heard, with its clock at 1 s.
+  void meet_vehicle() {
+    hear(vehicle_.heartbeat(), 1s);
+    hear(vehicle_.attitude(at(1s)), 1s);
+    sink_ = {};
+  }
+
+  static VehicleTime at(Duration since_boot) { return VehicleTime{since_boot}; }
+  TelemetryCounts counts() const { return link_.status(kStart).telemetry; }
+
+  VehicleLink link_{MavlinkConfig{}};
+  testing::CollectingSink sink_;
+  FrameFactory vehicle_{{1, 1}};
+};
+
+TEST_F(VehicleLinkTest, ListensToTheFirstAutopilotOnly) {
+  FrameFactory station({255, 190}), camera({1, 100}), other({2, 1});
+  EXPECT_FALSE(hear(vehicle_.attitude(at(1s)), 1s)) << "before its heartbeat it is anyone";
+  EXPECT_FALSE(hear(station.heartbeat(8, 6), 1s));
+  EXPECT_FALSE(hear(camera.heartbeat(testing::kArduPilot), 1s)) << "not the autopilot's component";
+  EXPECT_FALSE(link_.status(kStart).vehicle);
+  EXPECT_TRUE(hear(vehicle_.heartbeat(), 1s));
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+
+  EXPECT_FALSE(hear(other.heartbeat(), 2s));
+  EXPECT_FALSE(hear(other.attitude(at(900s)), 2s));
+  EXPECT_FALSE(hear(other.position(at(900s), 1.0, 2.0), 2s));
+  EXPECT_FALSE(hear(camera.attitude(at(2s)), 2s));
+  EXPECT_TRUE(hear(vehicle_.attitude(at(2s)), 2s));
+  EXPECT_EQ(sink_.attitudes.size(), 1U);
+  EXPECT_TRUE(sink_.positions.empty());
+  EXPECT_EQ(counts().foreign_frames, 7U);
+  EXPECT_EQ(counts().vehicle_frames, 2U);
+  EXPECT_EQ(sink_.frames.size(), 9U) << "a recording keeps the whole link";
+}
+
+TEST_F(VehicleLinkTest, WaitsForTheConfiguredSystem) {
+  MavlinkConfig config;
+  config.system_id = 2;
+  VehicleLink link(config);
+  FrameFactory second({2, 1});
+  const Bytes first_heartbeat = vehicle_.heartbeat(), second_heartbeat = second.heartbeat();
+  EXPECT_FALSE(link.consume(kStart, first_heartbeat.data(), first_heartbeat.size(), sink_));
+  EXPECT_TRUE(link.consume(kStart, second_heartbeat.data(), second_heartbeat.size(), sink_));
+}
+
+TEST_F(VehicleLinkTest, KeepsPositionsBackUntilTheVehicleKnowsWhereItIs) {
+  meet_vehicle();
+  hear(vehicle_.position(at(1s), 0.0, 0.0), 1s);
+  EXPECT_EQ(counts().no_fix_positions, 1U);
+  hear(vehicle_.position(at(1100ms), 47.0, 8.0), 1100ms);
+  EXPECT_EQ(sink_.positions.size(), 1U) << "a link without GPS_RAW_INT and EKF_STATUS_REPORT works";
+  hear(vehicle_.gnss(1), 1100ms);
+  hear(vehicle_.position(at(1200ms), 47.0, 8.0), 1200ms);
+  EXPECT_EQ(counts().no_fix_positions, 2U);
+  hear(vehicle_.gnss(3, 0.85), 1200ms);
+  hear(vehicle_.position(at(1300ms), 47.0, 8.0), 1300ms);
+  EXPECT_EQ(sink_.positions.size(), 2U);
+  EXPECT_EQ(sink_.positions.back().sigma_horizontal_m, 0.85);
+  for (const int flags : {1024, 0, 167}) {  // what ArduPilot goes through
+    hear(vehicle_.ekf_status(static_cast<std::uint16_t>(flags)), 1300ms);
+    hear(vehicle_.position(at(1400ms), 47.0, 8.0), 1400ms);
+  }
+  EXPECT_EQ(counts().no_fix_positions, 5U);
+  hear(vehicle_.ekf_status(831), 1400ms);
+  hear(vehicle_.position(at(1500ms), 47.0, 8.0, 12.5), 1500ms);
+  ASSERT_EQ(sink_.positions.size(), 3U);
+  EXPECT_EQ(sink_.positions.back().time, at(1500ms));
+  EXPECT_DOUBLE_EQ(sink_.positions.back().height_above_home_m, 12.5);
+}
+
+TEST_F(VehicleLinkTest, TakesQuaternionsOnlyWhereThereAreNoAngles) {
+  meet_vehicle();
+  hear(vehicle_.attitude(at(2s)), 2s);
+  hear(vehicle_.attitude_quaternion(at(2s)), 2s);
+  EXPECT_EQ(sink_.attitudes.size(), 1U);
+  EXPECT_EQ(counts().second_attitudes, 1U);
+  hear(vehicle_.attitude_quaternion(at(3500ms)), 3500ms);
+  EXPECT_EQ(sink_.attitudes.size(), 2U);
+}
+
+TEST_F(VehicleLinkTest, RefusesValuesThatCannotBe) {
+  meet_vehicle();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  hear(vehicle_.attitude(at(2s), nan), 2s);
+  hear(vehicle_.attitude(at(2s), 0.0, 1e9), 2s);
+  hear(vehicle_.position(at(2s), 91.0, 0.0), 2s);
+  hear(vehicle_.position(at(2s), 1.0, 181.0), 2s);
+  hear(vehicle_.position(at(2s), 1.0, 1.0, 2e5), 2s);
+  EXPECT_EQ(counts().refused_values, 5U);
+  EXPECT_TRUE(sink_.attitudes.empty());
+  EXPECT_TRUE(sink_.positions.empty());
+}
+
+TEST_F(VehicleLinkTest, TellsOfARebootBeforeTheFirstSampleOfTheNewClock) {
+  meet_vehicle();
+  hear(vehicle_.gnss(3), 1s);
+  hear(vehicle_.attitude(at(279s)), 2s);
+  hear(vehicle_.attitude(at(279s)), 2s);
+  hear(vehicle_.attitude(at(279s)), 2s);
+  sink_ = {};
+  for (int i = 0; i < 5; ++i) hear(vehicle_.attitude(at(19s + i * 100ms)), 12s + i * 100ms);
+  EXPECT_EQ(sink_.reboots_at.size(), 1U);
+  EXPECT_EQ(sink_.attitudes_before_reboot, std::vector<std::size_t>{0});
+  EXPECT_EQ(sink_.attitudes.size(), 3U);
+  EXPECT_FALSE(link_.status(kStart).fix_type) << "what was known of the receiver is forgotten";
+  EXPECT_NEAR(seconds(*link_.clock().to_vehicle(kStart + 13s) - at(20s)), 0.0, 1e-3);
+}
+
+TEST_F(VehicleLinkTest, ReadsTheClockFromItsOwnRoundTripsAlone) {
+  meet_vehicle();
+  const auto host_ns = [](Duration after_start) { return (kStart + after_start).time_since_epoch().count(); };
+  const auto refused = [&] { return link_.clock().counts().refused_round_trips; };
+  hear(vehicle_.timesync(1'000'000'000, host_ns(1s) + kMark + 1), 1010ms);
+  hear(vehicle_.timesync(1'000'000'000, host_ns(1s)), 1010ms);
+  hear(vehicle_.timesync(0, host_ns(1s) + kMark), 1010ms);
+  EXPECT_EQ(counts().foreign_timesyncs, 3U);
+  for (const std::int64_t absurd : {std::numeric_limits<std::int64_t>::min(), std::int64_t{-1},
+                                    std::numeric_limits<std::int64_t>::max()}) {
+    hear(vehicle_.timesync(absurd, host_ns(1s) + kMark), 1010ms);
+  }
+  EXPECT_EQ(refused(), 3U);
+  hear(vehicle_.timesync(1'000'000'000, host_ns(3s) + kMark), 1010ms);
+  hear(vehicle_.timesync(1'000'000'000, kMark), 1010ms);
+  hear(vehicle_.timesync(1'000'000'000, std::numeric_limits<std::int64_t>::max()), 1010ms);
+  hear(vehicle_.timesync(1'000'000'000, std::numeric_limits<std::int64_t>::min()), 1010ms);
+  hear(vehicle_.timesync(900'000'000'000, host_ns(1s) + kMark), 1010ms);
+  EXPECT_EQ(refused(), 6U) << "from the future, an hour old, another clock than the stamps'";
+  EXPECT_EQ(counts().foreign_timesyncs, 5U);
+  EXPECT_EQ(link_.clock().counts().round_trips, 0U);
+
+  for (int i = 0; i < 4; ++i) {
+    hear(
+        vehicle_.timesync(host_ns(1s + i * 100ms) - host_ns(0s) + 5'000'000, host_ns(1s + i * 100ms) + kMark),
+        1010ms + i * 100ms);
+  }
+  EXPECT_EQ(link_.clock().counts().round_trips, 4U);
+  EXPECT_EQ(link_.clock().source(), VehicleClockMap::Source::kRoundTrip);
+  EXPECT_EQ(link_.clock().to_vehicle(kStart + 5s), at(5s));
+}
+
+TEST_F(VehicleLinkTest, LeavesAnswersToOthersAlone) {
+  meet_vehicle();
+  const std::int64_t asked_ns = (kStart + 1s).time_since_epoch().count() + kMark;
+  const Bytes to_station = vehicle_.timesync_to({255, 190}, 1'005'000'000, asked_ns);
+  const Bytes to_us = vehicle_.timesync_to({1, 191}, 1'005'000'000, asked_ns);
+  hear(to_station, 1010ms);
+  EXPECT_EQ(counts().foreign_timesyncs, 1U);
+  EXPECT_EQ(link_.clock().counts().round_trips, 0U);
+  hear(to_us, 1010ms);
+  EXPECT_EQ(link_.clock().counts().round_trips, 1U);
+}
+
+TEST(MavlinkConfig, NamesEveryFault) {
+  MavlinkConfig config;
+  EXPECT_TRUE(config.problems().empty());
+  config.system_id = 256;
+  config.component_id = 1;
+  config.attitude_rate_hz = 0.0;
+  config.position_rate_hz = std::numeric_limits<double>::quiet_NaN();
+  config.link_timeout_s = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(config.problems().size(), 5U);
+  EXPECT_THROW(VehicleLink{config}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace geoloc::io
