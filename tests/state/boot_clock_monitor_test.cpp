@@ -42,5 +42,14 @@ TEST(BootClockMonitor, RecoversFromAStampFarAhead) {
   EXPECT_EQ(monitor.observe(at_s(100.1)), Verdict::kAdvanced);
 }
 
+TEST(BootClockMonitor, BelievesAPauseOfTheLinkAfterThreeStampsThatAgree) {
+  BootClockMonitor monitor;
+  monitor.observe(at_s(100.0));
+  EXPECT_EQ(monitor.observe(at_s(160.0)), Verdict::kSuspect);
+  EXPECT_EQ(monitor.observe(at_s(160.1)), Verdict::kSuspect);
+  EXPECT_EQ(monitor.observe(at_s(160.2)), Verdict::kAdvanced) << "not a reboot";
+  EXPECT_EQ(monitor.observe(at_s(160.3)), Verdict::kAdvanced);
+}
+
 }  // namespace
 }  // namespace geoloc
