@@ -29,12 +29,6 @@ bool in_square(const Point& at) {
   return at.cwiseAbs().maxCoeff() < 0.5f;
 }
 
-/// Dirt and wear: a few percent of light, in blotches.
-float wear(const PlacedObject& object, const Point& at) {
-  const Point blotch = 6.0f * at;
-  return 1.0f - 0.16f * value_noise(blotch.x(), blotch.y(), object.look) * trait(object, 1);
-}
-
 /// White square; black disc with a bow tie of two white quadrants and a black dot: no rotation below 180 deg
 /// looks the same, and the centre of the outline is the centre of the target.
 Surface look_of_fiducial(const PlacedObject& object, const Point& at) {
@@ -43,7 +37,7 @@ Surface look_of_fiducial(const PlacedObject& object, const Point& at) {
   const bool white = radius > 0.45f || (radius < 0.34f && radius > 0.085f && at.x() * at.y() > 0.0f);
   const float paper = 0.84f + 0.12f * trait(object, 2);
   const float ink = 0.05f + 0.07f * trait(object, 3);
-  return painted((white ? paper : ink) * wear(object, at));
+  return painted((white ? paper : ink));
 }
 
 Surface look_of_drain_cover(const PlacedObject& object, const Point& at) {
@@ -52,42 +46,42 @@ Surface look_of_drain_cover(const PlacedObject& object, const Point& at) {
   const bool groove = std::abs(radius - 0.43f) < 0.02f;
   const bool hatched = radius < 0.38f && (std::sin(38.0f * at.x()) * std::sin(38.0f * at.y()) > 0.15f);
   const float iron = 0.22f + 0.2f * trait(object, 2);
-  Surface surface = painted(iron * (groove ? 0.35f : hatched ? 0.7f : 1.0f) * wear(object, at));
+  Surface surface = painted(iron * (groove ? 0.35f : hatched ? 0.7f : 1.0f));
   surface.reflectance *= Eigen::Array3f(0.9f, 0.97f, 1.05f);  // a trace of rust
   return surface;
 }
 
-Surface look_of_tyre(const PlacedObject& object, const Point& at) {
+Surface look_of_tyre(const Point& at) {
   const float radius = at.norm();
   if (radius > 0.5f || radius < 0.27f) return kNothing;
   const float lit =
       0.5f + 0.5f * std::cos((radius - 0.37f) * 18.0f);  // the round of the rubber catches light
   const float tread = radius > 0.44f && std::sin(std::atan2(at.y(), at.x()) * 40.0f) > 0.4f ? 0.6f : 1.0f;
-  return painted((0.08f + 0.14f * lit) * tread * wear(object, at));
+  return painted((0.08f + 0.14f * lit) * tread);
 }
 
-Surface look_of_panel(const PlacedObject& object, const Point& at, float grey) {
+Surface look_of_panel(const Point& at, float grey) {
   if (!in_square(at)) return kNothing;
-  return painted(grey * wear(object, at));
+  return painted(grey);
 }
 
 Surface look_of_cross(const PlacedObject& object, const Point& at) {
   const float half_arm = 0.07f + 0.06f * trait(object, 2);
   if (!in_square(at) || at.cwiseAbs().minCoeff() > half_arm) return kNothing;
-  return painted(0.9f * wear(object, at));
+  return painted(0.9f);
 }
 
 Surface look_of_ring(const PlacedObject& object, const Point& at) {
   const float width = 0.06f + 0.1f * trait(object, 2);
   const float radius = at.norm();
   if (radius > 0.5f || radius < 0.5f - width) return kNothing;
-  return painted((trait(object, 3) < 0.7f ? 0.9f : 0.1f) * wear(object, at));
+  return painted((trait(object, 3) < 0.7f ? 0.9f : 0.1f));
 }
 
 Surface look_of_disc(const PlacedObject& object, const Point& at) {
   if (at.norm() > 0.5f) return kNothing;
   const float shade = trait(object, 2);
-  Surface surface = painted((shade < 0.4f ? 0.92f : shade < 0.7f ? 0.08f : 0.6f) * wear(object, at));
+  Surface surface = painted((shade < 0.4f ? 0.92f : shade < 0.7f ? 0.08f : 0.6f));
   if (shade >= 0.7f)
     surface.reflectance *= Eigen::Array3f(trait(object, 4), trait(object, 5), trait(object, 6));
   return surface;
@@ -98,7 +92,7 @@ Surface look_of_checker(const PlacedObject& object, const Point& at) {
   const float squares = 2.0f + std::floor(3.0f * trait(object, 2));
   const int parity =
       static_cast<int>((at.x() + 0.5f) * squares) + static_cast<int>((at.y() + 0.5f) * squares);
-  return painted((parity % 2 == 0 ? 0.9f : 0.08f) * wear(object, at));
+  return painted((parity % 2 == 0 ? 0.9f : 0.08f));
 }
 
 /// Radius of an irregular outline in the direction of the point.
@@ -129,8 +123,8 @@ Surface look_of_road_line(const PlacedObject& object, const Eigen::Vector2f& poi
 
 Surface look_of_bush(const PlacedObject& object, const Point& at) {
   const float radius = at.norm();
-  const float edge =
-      ragged_radius(object, at, 0.5f) * (0.8f + 0.4f * value_noise(14.0f * at.x(), 14.0f * at.y(), 9u));
+  const float leafy = 0.7f + 0.3f * value_noise(14.0f * at.x(), 14.0f * at.y(), 9u);
+  const float edge = ragged_radius(object, at, 0.4f) * leafy;
   if (radius > edge) return kNothing;
   const float leaves = value_noise(22.0f * at.x(), 22.0f * at.y(), object.look);
   const float clumps = value_noise(6.0f * at.x(), 6.0f * at.y(), object.look + 2u);
@@ -156,11 +150,11 @@ Surface surface_at(const PlacedObject& object, const Eigen::Vector2f& point_in_o
     case ObjectKind::kDrainCover:
       return look_of_drain_cover(object, at);
     case ObjectKind::kTyre:
-      return look_of_tyre(object, at);
+      return look_of_tyre(at);
     case ObjectKind::kWhitePanel:
-      return look_of_panel(object, at, 0.92f);
+      return look_of_panel(at, 0.92f);
     case ObjectKind::kBlackPanel:
-      return look_of_panel(object, at, 0.09f);
+      return look_of_panel(at, 0.09f);
     case ObjectKind::kCross:
       return look_of_cross(object, at);
     case ObjectKind::kRing:
@@ -177,6 +171,12 @@ Surface surface_at(const PlacedObject& object, const Eigen::Vector2f& point_in_o
       return look_of_bush(object, at);
   }
   return kNothing;
+}
+
+float wear_at(const PlacedObject& object, const Eigen::Vector2f& point_in_object_m) {
+  constexpr float kBlotchesAcross = 6.0f;
+  const Eigen::Vector2f blotch = point_in_object_m * (kBlotchesAcross / static_cast<float>(object.size_m));
+  return 1.0f - 0.16f * value_noise(blotch.x(), blotch.y(), object.look) * trait(object, 1);
 }
 
 Eigen::Matrix2d object_from_enu(const PlacedObject& object) {

@@ -112,7 +112,7 @@ void roughen(Canvas& canvas, double contrast, double persistence) {
 cv::Mat coloured(Canvas& canvas, const cv::Mat& tint, const cv::Vec3d& gain, double hue_noise) {
   std::array<cv::Mat, 3> channels;
   for (int k = 0; k < 3; ++k) {
-    const cv::Mat hue = fractal_noise(canvas.size(), 128, 512, 0.9, canvas.random);
+    const cv::Mat hue = periodic_noise(canvas.size(), 256, canvas.random);
     cv::Mat factor = 1.0 + hue_noise * hue;
     if (!tint.empty()) factor += gain[k] * tint;
     channels[static_cast<std::size_t>(k)] = canvas.light.mul(factor);

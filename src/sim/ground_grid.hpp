@@ -28,8 +28,8 @@ class GroundGrid {
   /// Computes all nodes for a pose, which must be finite.
   void look_from(const Rigid3d& enu_from_camera);
 
-  /// Node (column, row) sits at pixel kStep_px * column - kStep_px + 3.5, so the outermost nodes lie outside of
-  /// the image and the pixels between two nodes are whole.
+  /// Node (column, row) sits at pixel kStep_px * column - kStep_px + 3.5, so the outermost nodes lie outside
+  /// of the image and the pixels between two nodes are whole.
   static double pixel_of(int index) { return kStep_px * (index - 1) + 0.5 * (kStep_px - 1); }
 
   int columns() const { return columns_; }
@@ -40,6 +40,13 @@ class GroundGrid {
 
   /// All four corners of the cell right of and below the node see the ground.
   bool cell_on_ground(int column, int row) const;
+
+  /// Box around the four corners of that cell, relative to the origin.
+  Eigen::AlignedBox2f cell_box(int column, int row) const {
+    const Eigen::Vector2f &a = node(column, row).offset_m, &b = node(column + 1, row).offset_m;
+    const Eigen::Vector2f &c = node(column, row + 1).offset_m, &d = node(column + 1, row + 1).offset_m;
+    return {a.cwiseMin(b).cwiseMin(c.cwiseMin(d)), a.cwiseMax(b).cwiseMax(c.cwiseMax(d))};
+  }
 
   /// Length [m] on the ground of a pixel of that cell, which must see the ground; mean of both directions.
   float footprint_m(int column, int row) const;

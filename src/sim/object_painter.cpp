@@ -42,7 +42,9 @@ Surface mean_surface(const PlacedObject& object, const CellInObject& cell, int x
       mean.coverage += sample.coverage;
     }
   }
-  if (mean.coverage > 0.0f) mean.reflectance /= mean.coverage;
+  const Eigen::Vector2f middle =
+      cell.at((static_cast<float>(x) + 0.5f) / kStep, (static_cast<float>(y) + 0.5f) / kStep);
+  if (mean.coverage > 0.0f) mean.reflectance *= wear_at(object, middle) / mean.coverage;
   mean.coverage /= kSamples * kSamples;
   return mean;
 }
@@ -70,12 +72,16 @@ void paint_object(const GroundGrid& grid, const Light& light, const PlacedObject
   const Eigen::Vector2f half_m = half_extent_m(object);
   const Eigen::Vector2f centre_m = (object.position_in_enu - grid.origin_in_enu()).cast<float>();
   if (!(grid.extent_m().exteriorDistance(centre_m) < half_m.norm())) return;
+  const Eigen::Vector2f reach_m = Eigen::Vector2f::Constant(half_m.norm());
+  const Eigen::AlignedBox2f around(centre_m - reach_m, centre_m + reach_m);
   const Eigen::Matrix2f turn = object_from_enu(object).cast<float>();
   const auto in_object = [&](int column, int row) -> Eigen::Vector2f {
     return turn * (grid.node(column, row).offset_m - centre_m);
   };
   for (int row = 0; row + 1 < grid.rows(); ++row) {
     for (int column = 0; column + 1 < grid.columns(); ++column) {
+      if (!around.intersects(grid.cell_box(column, row)))
+        continue;  // most cells: before anything is computed
       const CellInObject cell{in_object(column, row), in_object(column + 1, row), in_object(column, row + 1),
                               in_object(column + 1, row + 1)};
       if (!cell.may_meet(half_m) || !grid.cell_on_ground(column, row)) continue;

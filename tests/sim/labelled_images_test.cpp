@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/sim/labelled_images.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace geoloc::sim {
+namespace {
+
+namespace fs = std::filesystem;
+
+class LabelledImages : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) / (std::string("geoloc_images_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::string content(const fs::path& file) {
+    std::ostringstream all;
+    all << std::ifstream(file, std::ios::binary).rdbuf();
+    return all.str();
+  }
+
+  fs::path folder_;
+};
+
+const auto kGoOn = [](int) { return true; };
+
+TEST_F(LabelledImages, AreTheSameForTheSameSeed) {
+  ASSERT_TRUE(write_labelled_images(2, 3, folder_ / "a", kGoOn));
+  ASSERT_TRUE(write_labelled_images(2, 3, folder_ / "b", kGoOn));
+  for (const char* const file :
+       {"images/00000.jpg", "images/00001.jpg", "labels/00000.txt", "labels/00001.txt"}) {
+    ASSERT_TRUE(fs::exists(folder_ / "a" / file));
+    EXPECT_EQ(content(folder_ / "a" / file), content(folder_ / "b" / file)) << file;
+  }
+}
+
+TEST_F(LabelledImages, CarryTheLabelsOfTheirShots) {
+  ASSERT_TRUE(write_labelled_images(1, 4, folder_ / "set", kGoOn));
+  const auto labels = labels_of(random_shot(4, 0));
+  std::ifstream file(folder_ / "set/labels/00000.txt");
+  for (const VisibleBox& label : labels) {
+    int class_id = -1;
+    double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
+    ASSERT_TRUE(file >> class_id >> x >> y >> width >> height);
+    EXPECT_EQ(class_id, 0);
+    EXPECT_NEAR(x * 1280.0, label.box.x + 0.5 * label.box.width, 1e-2);
+    EXPECT_NEAR(y * 720.0, label.box.y + 0.5 * label.box.height, 1e-2);
+    EXPECT_NEAR(width * 1280.0, label.box.width, 1e-2);
+    EXPECT_NEAR(height * 720.0, label.box.height, 1e-2);
+  }
+  std::string rest;
+  EXPECT_FALSE(file >> rest);
+}
+
+TEST_F(LabelledImages, LeaveNothingBehindWhenInterrupted) {
+  EXPECT_FALSE(write_labelled_images(5, 1, folder_ / "set", [](int done) { return done < 1; }));
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
+TEST_F(LabelledImages, NeverTouchAFolderThatExists) {
+  fs::create_directory(folder_ / "set");
+  EXPECT_THROW(write_labelled_images(1, 1, folder_ / "set", kGoOn), std::runtime_error);
+  EXPECT_TRUE(fs::is_empty(folder_ / "set"));
+}
+
+TEST(RandomShots, VaryAsTheDetectorNeeds) {
+  int labels = 0, usual_size = 0, without_target = 0;
+  std::array<int, kGroundStyleCount> grounds{};
+  constexpr int kShots = 300;
+  for (int index = 0; index < kShots; ++index) {
+    const Shot shot = random_shot(9, index);
+    ++grounds[static_cast<std::size_t>(shot.scene.ground)];
+    EXPECT_GE(shot.enu_from_camera.translation.z(), 8.0);
+    EXPECT_LE(shot.enu_from_camera.translation.z(), 60.0);
+    const Eigen::Vector3d optical_axis = shot.enu_from_camera.rotation * Eigen::Vector3d::UnitZ();
+    EXPECT_GE(-optical_axis.z(), std::cos(40.1 * M_PI / 180.0));
+    const auto boxes = labels_of(shot);
+    without_target += boxes.empty() ? 1 : 0;
+    for (const VisibleBox& label : boxes) {
+      EXPECT_GE(label.visible_fraction, kLabelledFraction);
+      const double size_px = std::sqrt(label.whole.width * label.whole.height);
+      usual_size += size_px >= 15.0 && size_px <= 60.0 ? 1 : 0;
+      ++labels;
+    }
+  }
+  EXPECT_GT(labels, 2 * kShots);
+  EXPECT_GT(usual_size, labels / 2);
+  EXPECT_GT(without_target, kShots / 20);
+  for (const int count : grounds) EXPECT_GT(count, kShots / kGroundStyleCount / 3);
+}
+
+}  // namespace
+}  // namespace geoloc::sim
