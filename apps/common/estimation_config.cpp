@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 
+#include "common/config_section.hpp"
 #include "geoloc/io/config/geolocator_fields.hpp"
 #include "geoloc/io/json/camera_file.hpp"
 
@@ -27,28 +28,6 @@ template <class Visitor>
 void visit_fields(Visitor& v, FrameConfig& frames) {
   v.field("max_wait_s", frames.max_wait_s, "s, for the vehicle's state around a frame");
 }
-
-namespace {
-
-template <typename Section>
-void read_section(const nlohmann::json& document, const char* key, Section& section,
-                  std::vector<std::string>& problems) {
-  const auto found = document.find(key);
-  if (found == document.end()) return;
-  io::FieldReader reader(*found, key, problems);
-  visit_fields(reader, section);
-  reader.refuse_unknown();
-}
-
-template <typename Section>
-nlohmann::ordered_json section_to_json(const Section& section) {
-  io::FieldWriter writer;
-  Section copy = section;
-  visit_fields(writer, copy);
-  return writer.take();
-}
-
-}  // namespace
 
 nlohmann::ordered_json estimation_to_json(const EstimationConfig& config) {
   auto json = io::geolocator_to_json(config.geolocator);

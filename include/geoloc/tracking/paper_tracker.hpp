@@ -21,7 +21,7 @@ struct PaperTrackerConfig {
   int max_penalty = 15;              ///< a track that reaches it is removed
   double visible_margin_px =
       40.0;  ///< nearer to the image's edge a missing detection is not held against a track
-  double merge_distance_m = 1.0;  ///< confirmed tracks that come closer are one object
+  double merge_distance_m = 0.8;  ///< confirmed tracks that come closer are one object: an object's size
   int max_tracks = 2000;          ///< beyond this, new objects are refused and counted
 
   std::vector<std::string> problems() const;

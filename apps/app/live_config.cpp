@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_config.hpp"
+
+#include <array>
+#include <utility>
+
+#include "common/config_section.hpp"
+
+namespace geoloc::io {
+
+template <>
+struct EnumNames<RtspTransport> {
+  static constexpr std::array<std::pair<RtspTransport, const char*>, 2> all{
+      {{RtspTransport::kTcp, "tcp"}, {RtspTransport::kUdp, "udp"}}};
+};
+
+template <class Visitor>
+void visit_fields(Visitor& v, VideoConfig& video) {
+  v.field("transport", video.transport, "tcp, or udp");
+  v.field("latency_s", video.latency_s,
+          "s, exposure to arrival where the stream does not tell the capture time");
+  v.field("reorder_s", video.reorder_s, "s, how long UDP packets out of order are waited for");
+  v.field("frame_timeout_s", video.frame_timeout_s, "s without a frame; then connect anew");
+  v.field("connect_timeout_s", video.connect_timeout_s, "s without a first frame; then connect anew");
+  v.field("retry_min_s", video.retry_min_s, "s between attempts; doubles while they fail");
+  v.field("retry_max_s", video.retry_max_s, "s between attempts at most");
+  v.field("max_megapixels", video.max_megapixels, "larger pictures are refused");
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, DetectionConfig& detection) {
+  v.field("confidence", detection.confidence, "boxes with a lower score are dropped");
+  v.field("nms_iou", detection.nms_iou,
+          "of two boxes of a class that overlap more, the more confident one stays");
+  v.field("max_detections", detection.max_detections, "in a picture");
+  v.field("threads", detection.threads, "of OpenCV; 0: as many as it likes");
+}
+
+}  // namespace geoloc::io
+
+namespace geoloc::apps {
+
+nlohmann::ordered_json live_to_json(const LiveConfig& config) {
+  auto json = estimation_to_json(config.estimation);
+  json["video"] = section_to_json(config.video);
+  json["detection"] = section_to_json(config.detection);
+  return json;
+}
+
+void live_from_json(const nlohmann::json& document, LiveConfig& config, std::vector<std::string>& problems) {
+  estimation_from_json(document, {"video", "detection"}, config.estimation, problems);
+  read_section(document, "video", config.video, problems);
+  read_section(document, "detection", config.detection, problems);
+  for (const auto& found : {config.video.problems(), config.detection.problems()}) {
+    problems.insert(problems.end(), found.begin(), found.end());
+  }
+}
+
+}  // namespace geoloc::apps

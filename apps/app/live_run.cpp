@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_run.hpp"
+
+#include <utility>
+
+namespace geoloc::apps {
+namespace {
+
+constexpr auto kTelemetryWait = std::chrono::milliseconds{10};
+constexpr int kMostDatagrams = 256;  // a turn: a flood must not starve the frames
+constexpr std::size_t kMostWaiting = 128;
+constexpr auto kFuture = std::chrono::milliseconds{500};  // clocks disagree a little; more is a wrong clock
+constexpr double kSmoothing = 0.1;
+
+}  // namespace
+
+LiveRun::LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
+                 const io::HostClock& clock)
+    : session_(session), socket_(socket), worker_(worker), recorder_(recorder), clock_(clock) {}
+
+void LiveRun::step() {
+  receive_telemetry();
+  session_.link().poll(clock_.now(),
+                       [this](const std::uint8_t* frame, std::size_t size) { socket_.send(frame, size); });
+  take_frames();
+  process_ready();
+}
+
+void LiveRun::receive_telemetry() {
+  auto wait = kTelemetryWait;
+  for (int i = 0; i < kMostDatagrams; ++i) {
+    const auto datagram = socket_.receive(wait);
+    if (!datagram) return;
+    if (session_.add_telemetry(clock_.now(), datagram->data, datagram->size))
+      socket_.answer(datagram->sender);
+    wait = std::chrono::milliseconds{0};
+  }
+}
+
+void LiveRun::take_frames() {
+  for (DetectedFrame& frame : worker_.take()) {
+    if (frame.captured_at <= newest_captured_ || frame.captured_at > clock_.now() + kFuture) {
+      ++stats_.out_of_order;
+      continue;
+    }
+    newest_captured_ = frame.captured_at;
+    if (waiting_.size() >= kMostWaiting) {
+      waiting_.pop_front();
+      ++stats_.overflowed;
+    }
+    waiting_.push_back(std::move(frame));
+  }
+}
+
+void LiveRun::process_ready() {
+  while (!waiting_.empty()) {
+    const DetectedFrame& frame = waiting_.front();
+    const bool waited_enough = clock_.now() - frame.received_at > session_.max_frame_wait();
+    if (!session_.is_decided(frame.captured_at) && !waited_enough) return;
+    process(frame);
+    waiting_.pop_front();
+  }
+}
+
+void LiveRun::process(const DetectedFrame& frame) {
+  recorder_.write([&](io::RecordingWriter& writer) {
+    writer.add_frame({frame.captured_at, frame.detections, recorder_.telemetry_records()});
+  });
+  if (session_.process({frame.captured_at, frame.detections})) {
+    stats_.latency_s += kSmoothing * (seconds(clock_.now() - frame.captured_at) - stats_.latency_s);
+  }
+  stats_.time_quality = frame.time_quality;
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+
+#include "app/detection_worker.hpp"
+#include "app/recorder.hpp"
+#include "common/session.hpp"
+#include "geoloc/io/mavlink/udp_socket.hpp"
+
+namespace geoloc::apps {
+
+/// The loop that owns the estimator: takes telemetry from a socket and detections from a worker, and gives
+/// each frame to the session once the vehicle's state around it is known, or the wait for that is over.
+class LiveRun {
+ public:
+  struct Stats {
+    std::uint64_t out_of_order =
+        0;  ///< frames captured before one that was processed already, or in the future
+    std::uint64_t overflowed = 0;  ///< frames that waited while too many others came
+    double latency_s = 0.0;        ///< from capture to result, smoothed
+    io::TimeQuality time_quality = io::TimeQuality::kArrival;  ///< of the last frame
+  };
+
+  /// All must outlive the run.
+  LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
+          const io::HostClock& clock);
+
+  /// One turn: waits some milliseconds for telemetry at most.
+  void step();
+
+  /// The video has ended and no frame waits.
+  bool has_ended() const { return worker_.has_ended() && waiting_.empty(); }
+
+  const Stats& stats() const { return stats_; }
+
+ private:
+  void receive_telemetry();
+  void take_frames();
+  void process_ready();
+  void process(const DetectedFrame& frame);
+
+  Session& session_;
+  io::UdpSocket& socket_;
+  DetectionWorker& worker_;
+  Recorder& recorder_;
+  const io::HostClock& clock_;
+  std::deque<DetectedFrame> waiting_;
+  HostTime newest_captured_{};
+  Stats stats_;
+};
+
+}  // namespace geoloc::apps

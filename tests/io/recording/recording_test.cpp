@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "geoloc/io/recording/recording_reader.hpp"
+#include "geoloc/io/recording/recording_writer.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace geoloc::io {
+namespace {
+
+const std::vector<std::uint8_t> kHeartbeat{0xFE, 9, 0, 1, 1, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 0xAA, 0xBB};
+
+HostTime at_us(std::int64_t us) {
+  return HostTime{std::chrono::microseconds{us}};
+}
+
+RecordedFrame some_frame(std::int64_t time_us) {
+  return {at_us(time_us), {{{1.25, 2.1, 30.7, 1.0 / 3.0}, 0.87654321, 4}}, 1};
+}
+
+void write_recording(const std::filesystem::path& folder) {
+  RecordingWriter writer(folder);
+  writer.write_camera(CameraConfig{});
+  writer.write_config("{}");
+  writer.write_class_names({"target", "\xff not UTF-8"});
+  writer.write_truth({{7, 2, {-22.906123456789, -43.133987654321}}});
+  writer.add_telemetry(at_us(1'000'000), kHeartbeat.data(), kHeartbeat.size());
+  writer.add_frame(some_frame(1'000'100));
+  writer.add_frame({at_us(1'000'200), {}, std::nullopt});
+  EXPECT_FALSE(std::filesystem::exists(folder));  // whole or not at all
+  writer.finish();
+}
+
+TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
+  const testing::TemporaryFolder temporary;
+  const auto folder = temporary.path() / "run";
+  write_recording(folder);
+  const Recording recording = read_recording(folder);
+  ASSERT_EQ(recording.frames.size(), 2U);
+  const RecordedFrame expected = some_frame(1'000'100);
+  EXPECT_EQ(recording.frames[0].captured_at, expected.captured_at);
+  EXPECT_EQ(recording.frames[0].telemetry_records, 1U);
+  ASSERT_EQ(recording.frames[0].detections.size(), 1U);
+  EXPECT_EQ(recording.frames[0].detections[0].box.height, 1.0 / 3.0);
+  EXPECT_EQ(recording.frames[0].detections[0].confidence, 0.87654321);
+  EXPECT_EQ(recording.frames[0].detections[0].class_id, 4);
+  EXPECT_TRUE(recording.frames[1].detections.empty());
+  EXPECT_FALSE(recording.frames[1].telemetry_records);
+  ASSERT_EQ(recording.telemetry.records().size(), 1U);
+  EXPECT_EQ(recording.telemetry.records()[0].size, kHeartbeat.size());
+  ASSERT_EQ(recording.truth.size(), 1U);
+  EXPECT_EQ(recording.truth[0].id, 7);
+  EXPECT_DOUBLE_EQ(recording.truth[0].position.latitude_deg, -22.906123456789);
+  EXPECT_EQ(recording.class_names.at(0), "target");
+  EXPECT_EQ(recording.config_json, "{}\n");
+}
+
+TEST(Recording, WriterRefusesAFolderInUse) {
+  const testing::TemporaryFolder temporary;
+  temporary.write("notes.txt", "mine");
+  EXPECT_THROW(RecordingWriter{temporary.path()}, std::runtime_error);
+  EXPECT_NO_THROW(RecordingWriter{temporary.path() / "new"});
+}
+
+TEST(Recording, WriterReportsAFullDisk) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  const testing::TemporaryFolder temporary;
+  RecordingWriter writer(temporary.path() / "run");
+  std::filesystem::create_symlink("/dev/full", temporary.path() / "run.partial" / "full.json");
+  EXPECT_THROW(writer.write_extra("full.json", "{}"), std::runtime_error);
+}
+
+TEST(Recording, ReaderNamesWhatIsMissing) {
+  const testing::TemporaryFolder temporary;
+  for (const char* name : {"telemetry.tlog", "frames.jsonl", "camera.json"}) {
+    const auto folder = temporary.path() / (std::string("without-") + name);
+    write_recording(folder);
+    std::filesystem::remove(folder / name);
+    try {
+      read_recording(folder);
+      FAIL() << "read without " << name;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
+    }
+  }
+  EXPECT_THROW(read_recording(temporary.path() / "nowhere"), std::runtime_error);
+}
+
+class BadFrameLine : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(BadFrameLine, IsRefusedByFileLineAndReasonOrSkippedAndCounted) {
+  const std::string good = R"({"time_us": 5, "detections": []})";
+  std::istringstream strict(good + "\n" + GetParam() + "\n");
+  std::size_t skipped = 0;
+  try {
+    read_frames(strict, "frames.jsonl", BadLines::kRefuse, skipped);
+    FAIL() << "accepted: " << GetParam();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("frames.jsonl:2: ", 0), 0U) << error.what();
+  }
+  std::istringstream lenient(good + "\n" + GetParam() + "\n" +
+                             R"({"time_us": 9, "detections": [], "extra": 1})");
+  EXPECT_EQ(read_frames(lenient, "frames.jsonl", BadLines::kSkip, skipped).size(), 2U);
+  EXPECT_EQ(skipped, 1U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, BadFrameLine,
+    ::testing::Values("nonsense", "[]", "{}", R"({"time_us": 6})", R"({"time_us": 4, "detections": []})",
+                      R"({"time_us": -1, "detections": []})", R"({"time_us": 1e300, "detections": []})",
+                      R"({"time_us": 9223372036854775807, "detections": []})",
+                      R"({"time_us": 6, "detections": 3})", R"({"time_us": 6, "detections": [3]})",
+                      R"({"time_us": 6, "detections": [{"box": [1, 2, 3]}]})",
+                      R"({"time_us": 6, "detections": [{"box": [1, 2, 0, 4]}]})",
+                      R"({"time_us": 6, "detections": [{"box": [1, 2, 3, -4]}]})",
+                      R"({"time_us": 6, "detections": [{"box": [NaN, 2, 3, 4]}]})",
+                      R"({"time_us": 6, "detections": [{"box": [1e999, 2, 3, 4]}]})",
+                      R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "confidence": 2}]})",
+                      R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "class_id": 0.5}]})",
+                      R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "class_id": 1e12}]})",
+                      R"({"time_us": 6, "detections": [], "telemetry_records": -3})"));
+
+TEST(Truth, RefusesWhatIsNoPlace) {
+  const testing::TemporaryFolder temporary;
+  for (const char* text :
+       {"", "{}", R"({"features": [{}]})", R"({"features": [{"geometry": {"coordinates": [1]}}]})",
+        R"({"features": [{"geometry": {"coordinates": [-43, 99]}}]})", R"({"features": [7]})"}) {
+    EXPECT_THROW(read_truth(temporary.write("truth.geojson", text)), std::runtime_error) << text;
+  }
+}
+
+}  // namespace
+}  // namespace geoloc::io
