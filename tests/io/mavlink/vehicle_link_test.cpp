@@ -7,6 +7,7 @@
 
 #include "io/mavlink/collecting_sink.hpp"
 #include "io/mavlink/test_frames.hpp"
+#include "support/allocation_counter.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -176,6 +177,32 @@ TEST_F(VehicleLinkTest, LeavesAnswersToOthersAlone) {
   EXPECT_EQ(link_.clock().counts().round_trips, 0U);
   hear(to_us, 1010ms);
   EXPECT_EQ(link_.clock().counts().round_trips, 1U);
+}
+
+TEST(VehicleLink, DoesNotAllocateOnceItKnowsTheVehicle) {
+  struct NullSink : TelemetrySink {
+    void on_attitude(const AttitudeSample&) override {}
+    void on_position(const PositionSample&) override {}
+    void on_reboot() override {}
+    void on_frame(HostTime, const std::uint8_t*, std::size_t) override {}
+  } sink;
+  FrameFactory vehicle({1, 1});
+  VehicleLink link{MavlinkConfig{}};
+  Bytes stream = vehicle.heartbeat();
+  link.consume(kStart, stream.data(), stream.size(), sink);
+  stream.assign(50, 0xFE);
+  for (int i = 0; i < 100; ++i) {
+    const VehicleTime time{10s + i * 10ms};
+    for (const Bytes& frame :
+         {vehicle.attitude(time), vehicle.position(time, 1.0, 2.0), vehicle.system_time(time)}) {
+      stream.insert(stream.end(), frame.begin(), frame.end());
+    }
+  }
+  const std::size_t before = geoloc::testing::allocations();
+  link.consume(kStart + 10s, stream.data(), stream.size(), sink);
+  link.poll(kStart + 12s, [](const std::uint8_t*, std::size_t) {});
+  EXPECT_EQ(geoloc::testing::allocations(), before);
+  EXPECT_EQ(link.status(kStart).telemetry.attitudes, 100U);
 }
 
 TEST(MavlinkConfig, NamesEveryFault) {
