@@ -20,7 +20,7 @@ bool is_silent(const std::optional<Duration>& since) {
 
 std::string link_message(const io::LinkStatus& link) {
   if (!link.vehicle) return "waiting for a vehicle: no MAVLink heartbeat of an autopilot yet";
-  const std::string name = fmt::format("vehicle {}", link.vehicle->system_id);
+  const std::string name = fmt::format("vehicle {}", link.vehicle->system);
   if (is_silent(link.since_attitude)) return name + ": no attitude comes; frames cannot be located";
   if (is_silent(link.since_position))
     return name + ": no position comes (no fix yet?); frames cannot be located";

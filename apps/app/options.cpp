@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/options.hpp"
+
+#include <stdexcept>
+
+#include "common/command_line.hpp"
+#include "common/data_files.hpp"
+#include "geoloc/io/detection/opencv_detector.hpp"
+#include "geoloc/io/video/file_source.hpp"
+#include "geoloc/io/video/rtsp_source.hpp"
+
+namespace geoloc::apps {
+
+void add_live_options(CLI::App& program, LiveOptions& options) {
+  const auto add = [&program](const char* name, std::string& value, const char* help, const char* type) {
+    return program.add_option(name, value, help)->type_name(type);
+  };
+  add("--udp", options.udp, "MAVLink input: PORT on every interface, or HOST:PORT", "[HOST:]PORT")
+      ->capture_default_str();
+  add("--rtsp", options.rtsp_url, "Camera stream, H.264", "URL");
+  add("--video", options.video_file, "A video file in place of a stream, played in real time", "FILE");
+  add("--config", options.config_file, "Settings, JSON (see --print-config)", "FILE");
+  add("--method", options.method, "paper", "NAME");
+  add("--model", options.model_file, "Detector, ONNX with YOLO11's output; default: the fiducial target's",
+      "FILE");
+  add("--class-names", options.class_names_file, "A class name a line; default: those in the model", "FILE");
+  add("--backend", options.backend, "What runs the model: opencv", "NAME")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"opencv"}));
+  add("--record", options.record_folder, "Record telemetry and detections, for geoloc_replay", "DIR");
+  add("--truth", options.truth_file, "True targets, GeoJSON: the run is scored at its end", "FILE");
+  program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
+  add_output_options(program, options.outputs);
+}
+
+LiveConfig load_config(const LiveOptions& options) {
+  LiveConfig config;
+  const auto apply = [&config](const nlohmann::json& document, const std::string& name) {
+    std::vector<std::string> problems;
+    live_from_json(document, config, problems);
+    refuse_problems(name, problems);
+  };
+  if (!options.config_file.empty()) apply(read_config_document(options.config_file), options.config_file);
+  if (!options.method.empty()) apply({{"method", options.method}}, "--method");
+  return config;
+}
+
+std::unique_ptr<io::Detector> make_detector(const LiveOptions& options, const io::DetectionConfig& config) {
+  io::DetectorFiles files;
+  files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
+                                           : std::filesystem::path(options.model_file);
+  if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
+  return std::make_unique<io::OpencvDetector>(files, config);
+}
+
+std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, const io::VideoConfig& config,
+                                                   const io::HostClock& clock) {
+  if (options.rtsp_url.empty() == options.video_file.empty()) {
+    throw std::invalid_argument("give one of --rtsp URL and --video FILE");
+  }
+  if (!options.rtsp_url.empty()) return std::make_unique<io::RtspSource>(options.rtsp_url, config, clock);
+  return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock);
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Live: telemetry by MAVLink and a camera's frames in, geographic coordinates of objects out.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "app/console.hpp"
+#include "app/live_run.hpp"
+#include "app/options.hpp"
+#include "app/recorder.hpp"
+#include "app/stop_signal.hpp"
+#include "common/command_line.hpp"
+#include "geoloc/io/recording/recording_reader.hpp"
+
+namespace {
+
+using namespace geoloc;
+using namespace geoloc::apps;
+
+constexpr auto kOutputPeriod = std::chrono::seconds{5};
+
+/// Everything that can be wrong with arguments, files, model and port is found while this is made.
+struct Program {
+  explicit Program(const LiveOptions& given)
+      : options(given),
+        config(load_config(given)),
+        truth(given.truth_file.empty() ? std::vector<io::TrueTarget>{} : io::read_truth(given.truth_file)),
+        detector(make_detector(given, config.detection)),
+        socket(io::parse_udp_endpoint(given.udp)),
+        recorder(given.record_folder),
+        session(config.estimation,
+                [this](HostTime received_at, const std::uint8_t* frame, std::size_t size) {
+                  recorder.write(
+                      [&](io::RecordingWriter& writer) { writer.add_telemetry(received_at, frame, size); });
+                }),
+        video(make_video_source(given, config.video, clock)) {
+    recorder.write([this](io::RecordingWriter& writer) {
+      writer.write_camera(config.estimation.geolocator.camera);
+      writer.write_config(live_to_json(config).dump(2));
+      writer.write_class_names(detector->class_names());
+      if (!truth.empty()) writer.write_truth(truth);
+    });
+  }
+
+  void write_results() const {
+    const std::string source = options.rtsp_url.empty() ? options.video_file : "live run";
+    write_outputs(options.outputs, session, detector->class_names(), truth, "geoloc: " + source);
+  }
+
+  LiveOptions options;
+  LiveConfig config;
+  std::vector<io::TrueTarget> truth;
+  io::HostClock clock;
+  std::unique_ptr<io::Detector> detector;
+  io::UdpSocket socket;
+  Recorder recorder;
+  Session session;
+  std::unique_ptr<io::VideoSource> video;
+};
+
+/// Until the video ends or the user has enough. Results are written now and then, so that a power cut costs
+/// seconds.
+void run_until_stopped(Program& program, Console& console) {
+  const StopSignal stop;
+  DetectionWorker worker(*program.video, *program.detector,
+                         program.config.estimation.geolocator.camera.intrinsics, program.clock);
+  LiveRun run(program.session, program.socket, worker, program.recorder, program.clock);
+  HostTime written_at = program.clock.now();
+  while (!stop.is_requested() && !run.has_ended()) {
+    run.step();
+    const HostTime now = program.clock.now();
+    console.update(now, program.session, *program.video, worker, run);
+    if (now - written_at < kOutputPeriod) continue;
+    written_at = now;
+    try {
+      program.write_results();
+    } catch (const std::exception& error) {
+      console.say(std::string("geoloc_app: ") + error.what() + " (trying again)");
+    }
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App cli("Finds ground objects in a drone's live video and gives their coordinates.", "geoloc_app");
+  LiveOptions options;
+  add_live_options(cli, options);
+  if (const auto status = parse(cli, argc, argv)) return *status;
+
+  std::unique_ptr<Program> program;
+  const auto unusable = guard("geoloc_app", kUnusable, [&] {
+    if (options.print_config) {
+      std::puts(live_to_json(load_config(options)).dump(2).c_str());
+    } else {
+      program = std::make_unique<Program>(options);
+    }
+  });
+  if (unusable) return *unusable;
+  if (options.print_config) return kDone;
+
+  Console console(program->clock.now());
+  console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
+  run_until_stopped(*program, console);
+
+  program->recorder.finish();
+  console.say(summarize(program->session, program->truth));
+  const auto failed = guard("geoloc_app", kFailed, [&] {
+    program->write_results();
+    if (options.outputs.objects.empty()) {
+      const auto objects =
+          io::report_objects(program->session.geolocator(), program->detector->class_names());
+      std::fputs(objects_to_table(objects).c_str(), stdout);
+    }
+  });
+  return failed.value_or(program->recorder.has_failed() ? kFailed : kDone);
+}
