@@ -2,9 +2,9 @@
 // The synthetic world: a flight played live or recorded, or labelled pictures of it.
 #include <CLI/CLI.hpp>
 #include <cstdint>
-#include <cstdio>
 
 #include "sim/images_mode.hpp"
+#include "sim/live_mode.hpp"
 #include "sim/record_mode.hpp"
 #include "sim/run_options.hpp"
 
@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
   program.add_option("--seed", seed, "Seed of all that is random")->capture_default_str();
   geoloc::sim::add_run_options(program, run);
   CLI::Option* const record_wanted = geoloc::sim::add_record_options(program, record);
+  geoloc::sim::LiveOptions live;
+  geoloc::sim::add_live_options(program, live);
   CLI::Option* const images_wanted = geoloc::sim::add_images_options(program, images);
   try {
     program.parse(argc, argv);
@@ -25,6 +27,5 @@ int main(int argc, char** argv) {
   }
   if (*images_wanted) return geoloc::sim::run_images_mode(images, seed);
   if (*record_wanted) return geoloc::sim::run_record_mode(run, record, seed);
-  std::fputs("geoloc_sim: nothing to do; see --help\n", stderr);
-  return 2;
+  return geoloc::sim::run_live_mode(run, live, seed);
 }
