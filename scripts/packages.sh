@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+# Debian 12's packages, and how the scripts install them. Sourced.
+
+BUILD_PACKAGES=(
+  g++ make cmake ninja-build pkg-config python3 python3-venv
+  libeigen3-dev libgeographiclib-dev
+  nlohmann-json3-dev libcli11-dev libfmt-dev libyaml-cpp-dev zlib1g-dev
+  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-dnn-dev
+  libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstrtspserver-1.0-dev
+)
+RUN_PACKAGES=(
+  gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-plugins-ugly
+  gstreamer1.0-libav
+)
+TEST_PACKAGES=(git ccache libgtest-dev libbenchmark-dev)
+LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev)
+
+say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
+
+# install_packages NAME…: installs what is missing, as root or with sudo. Nothing to do costs no time and no network.
+install_packages() {
+  local missing=() package
+  for package in "$@"; do
+    dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  local as_root=()
+  if [ "$(id -u)" -ne 0 ]; then
+    command -v sudo >/dev/null || { echo "Needed, as root: apt-get install ${missing[*]}" >&2; return 1; }
+    as_root=(sudo)
+  fi
+  say "Installing ${#missing[@]} packages"
+  mkdir -p "$ROOT/build/apt-tmp"  # some packages' scripts fail where /tmp is a small memory disk
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >/dev/null
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive TMPDIR="$ROOT/build/apt-tmp" \
+    apt-get install -y -q --no-install-recommends "${missing[@]}" >"$ROOT/build/apt.log" 2>&1 ||
+    { tail -n 20 "$ROOT/build/apt.log" >&2; echo "apt-get failed; all of it is in build/apt.log" >&2; return 1; }
+}
