@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace geoloc::io {
+
+/// An input or output of an ONNX graph.
+struct OnnxTensor {
+  std::string name;
+  std::vector<std::int64_t> shape;  ///< kUnknownLength where a length is given by name or not at all
+};
+
+constexpr std::int64_t kUnknownLength = -1;
+
+/// What OpenCV's importer keeps to itself.
+struct OnnxMetadata {
+  std::int64_t opset = 0;          ///< of the operators of ONNX itself
+  std::vector<OnnxTensor> inputs;  ///< without those that have a constant value
+  std::vector<OnnxTensor> outputs;
+  std::map<std::string, std::string> properties;  ///< metadata_props
+  bool has_split_by_input = false;                ///< a Split whose sizes are an input, as of opset 13
+};
+
+/// Reads the few fields above out of an ONNX file's bytes; all others are skipped. nullopt where the bytes
+/// are not a protobuf message with a graph in it. Takes any bytes.
+std::optional<OnnxMetadata> read_onnx_metadata(const std::uint8_t* data, std::size_t size);
+
+/// The names in ultralytics' property "names": a Python dictionary, {0: 'person', 1: "driver's seat"}.
+/// nullopt where it is not one, or where its keys are not 0, 1, 2 … Takes any text.
+std::optional<std::vector<std::string>> parse_class_names(std::string_view dictionary);
+
+}  // namespace geoloc::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "geoloc/camera/detection.hpp"
+#include "geoloc/io/detection/detection_config.hpp"
+#include "geoloc/io/detection/letterbox.hpp"
+
+namespace geoloc::io {
+
+/// The output [1, 4 + classes, candidates] of YOLO11 and its relatives (v8 to v12). Its rows, one value a
+/// candidate: centre x, centre y, width, height in pixels of the network's input (continuous edges), then a
+/// score in 0..1 for each class.
+struct YoloOutput {
+  const float* values = nullptr;
+  int classes = 0;
+  int candidates = 0;
+};
+
+struct DecodedBoxes {
+  std::vector<Detection> detections;  ///< in the picture and inside it, most confident first
+  std::size_t rejected = 0;           ///< confident boxes that are not finite or of no size; scores above 1
+};
+
+/// Threshold, non-maximum suppression within each class, and the way back from the network's input to the
+/// picture. A candidate counts for its best class alone. What lies outside the picture is cut off.
+DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize picture,
+                         const DetectionConfig& config);
+
+/// Area of the intersection over that of the union; 0 where they do not touch.
+double intersection_over_union(const Box& a, const Box& b);
+
+}  // namespace geoloc::io

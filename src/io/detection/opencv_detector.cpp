@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/detection/opencv_detector.hpp"
+
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <utility>
+
+#include "geoloc/geometry/problems.hpp"
+#include "geoloc/io/detection/yolo_decode.hpp"
+#include "onnx_network.hpp"
+
+namespace geoloc::io {
+namespace {
+
+const cv::Scalar kGrey = cv::Scalar::all(114);  // what YOLO networks are trained to see as no picture
+
+std::vector<std::string> names_for(const DetectorFiles& files, const OnnxNetwork& network) {
+  const auto classes = static_cast<std::size_t>(network.classes);
+  if (files.class_names) {
+    auto names = read_class_names(*files.class_names);
+    if (names.size() == classes) return names;
+    throw std::runtime_error(files.class_names->string() + ": has " + std::to_string(names.size()) +
+                             " names; " + files.model.string() + " has " + std::to_string(classes) +
+                             " classes");
+  }
+  if (network.class_names) return *network.class_names;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < classes; ++i) names.push_back("class " + std::to_string(i));
+  return names;
+}
+
+}  // namespace
+
+class OpencvDetector::Impl {
+ public:
+  Impl(const DetectorFiles& files, const DetectionConfig& config) : config_(config) {
+    throw_if_any(config_.problems());
+    if (config_.threads > 0) cv::setNumThreads(config_.threads);
+    network_ = load_onnx_network(files.model);
+    class_names_ = names_for(files, network_);
+    canvas_ = cv::Mat{network_.input.height_px, network_.input.width_px, CV_8UC3, kGrey};
+  }
+
+  std::vector<Detection> detect(const cv::Mat& picture) {
+    ++counts_.images;
+    try {
+      const cv::Mat bgr = as_bgr(picture);
+      if (!bgr.empty()) return detect_in_bgr(bgr);
+      ++counts_.unusable_images;
+    } catch (const std::exception&) {  // cv::Exception, or no memory
+      ++counts_.failed_images;
+    }
+    return {};
+  }
+
+  const std::vector<std::string>& class_names() const { return class_names_; }
+  const DetectorCounts& counts() const { return counts_; }
+  ImageSize input_size() const { return network_.input; }
+
+ private:
+  /// Empty where it is no such picture as Detector::detect() takes.
+  static cv::Mat as_bgr(const cv::Mat& picture) {
+    if (picture.dims != 2 || picture.empty() || picture.depth() != CV_8U) return {};
+    cv::Mat bgr;
+    if (picture.channels() == 3) return picture;
+    if (picture.channels() == 1) cv::cvtColor(picture, bgr, cv::COLOR_GRAY2BGR);
+    if (picture.channels() == 4) cv::cvtColor(picture, bgr, cv::COLOR_BGRA2BGR);
+    return bgr;
+  }
+
+  std::vector<Detection> detect_in_bgr(const cv::Mat& bgr) {
+    const ImageSize size{bgr.cols, bgr.rows};
+    const Letterbox letterbox = fit_letterbox(size, network_.input);
+    fill_input(bgr, letterbox);
+    network_.net.setInput(input_);
+    const cv::Mat output = network_.net.forward();
+    if (output.total() != static_cast<std::size_t>(network_.candidates) * (4 + class_names_.size())) {
+      throw std::runtime_error("the output changed its size");
+    }
+    const DecodedBoxes decoded =
+        decode_yolo({output.ptr<float>(), network_.classes, network_.candidates}, letterbox, size, config_);
+    counts_.rejected_boxes += decoded.rejected;
+    return decoded.detections;
+  }
+
+  /// RGB planes in 0..1.
+  void fill_input(const cv::Mat& bgr, const Letterbox& letterbox) {
+    const cv::Rect place{letterbox.left_px, letterbox.top_px, letterbox.scaled.width_px,
+                         letterbox.scaled.height_px};
+    if (place != place_) canvas_.setTo(kGrey);
+    place_ = place;
+    cv::Mat target = canvas_(place);
+    cv::resize(bgr, target, target.size(), 0, 0, cv::INTER_LINEAR);
+    constexpr bool kSwapRedAndBlue = true;
+    cv::dnn::blobFromImage(canvas_, input_, 1.0 / 255.0, {}, {}, kSwapRedAndBlue);
+  }
+
+  const DetectionConfig config_;
+  OnnxNetwork network_;
+  std::vector<std::string> class_names_;
+  DetectorCounts counts_;
+  cv::Mat canvas_;  // the letterboxed picture
+  cv::Rect place_;  // of the picture in it
+  cv::Mat input_;
+};
+
+OpencvDetector::OpencvDetector(const DetectorFiles& files, const DetectionConfig& config)
+    : impl_(std::make_unique<Impl>(files, config)) {}
+
+OpencvDetector::~OpencvDetector() = default;
+
+std::vector<Detection> OpencvDetector::detect(const cv::Mat& bgr) {
+  return impl_->detect(bgr);
+}
+
+const std::vector<std::string>& OpencvDetector::class_names() const {
+  return impl_->class_names();
+}
+
+DetectorCounts OpencvDetector::counts() const {
+  return impl_->counts();
+}
+
+ImageSize OpencvDetector::input_size() const {
+  return impl_->input_size();
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/detection/yolo_decode.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace geoloc::io {
+namespace {
+
+/// Suppression compares pairs, so a network gone wrong must not give it tens of thousands of boxes.
+constexpr std::size_t kMaxCandidates = 2000;
+constexpr int kBoxValues = 4;
+/// Rounding in a network may lift a sigmoid over 1 by this much.
+constexpr double kScoreTolerance = 1e-3;
+
+class Values {
+ public:
+  explicit Values(const YoloOutput& output) : output_(output) {}
+
+  double operator()(int row, int candidate) const {
+    return output_.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(output_.candidates) +
+                          static_cast<std::size_t>(candidate)];
+  }
+
+ private:
+  const YoloOutput& output_;
+};
+
+struct Score {
+  double value = 0.0;
+  int class_id = 0;
+};
+
+Score best_score(const YoloOutput& output, int candidate) {
+  const Values values{output};
+  Score best;
+  for (int class_id = 0; class_id < output.classes; ++class_id) {
+    const double value = values(kBoxValues + class_id, candidate);
+    if (value > best.value) best = {value, class_id};  // false for NaN
+  }
+  return best;
+}
+
+/// In the network's input; nullopt where it cannot be a box.
+std::optional<Box> box_of(const YoloOutput& output, int candidate) {
+  const Values values{output};
+  const double width = values(2, candidate);
+  const double height = values(3, candidate);
+  const Box box{values(0, candidate) - 0.5 * width, values(1, candidate) - 0.5 * height, width, height};
+  if (!(std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(width) && std::isfinite(height)))
+    return std::nullopt;
+  if (!(width > 0 && height > 0)) return std::nullopt;
+  return box;
+}
+
+DecodedBoxes confident_boxes(const YoloOutput& output, double threshold) {
+  DecodedBoxes found;
+  for (int candidate = 0; candidate < output.candidates; ++candidate) {
+    const Score score = best_score(output, candidate);
+    if (!(score.value >= threshold)) continue;
+    const auto box = box_of(output, candidate);
+    if (!box || score.value > 1 + kScoreTolerance) {
+      ++found.rejected;
+      continue;
+    }
+    found.detections.push_back({*box, std::min(score.value, 1.0), score.class_id});
+  }
+  return found;
+}
+
+/// Greedy: from the most confident box on, each one stays that does not overlap one that stayed.
+std::vector<Detection> suppress_overlaps(std::vector<Detection> boxes, const DetectionConfig& config) {
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const Detection& a, const Detection& b) { return a.confidence > b.confidence; });
+  if (boxes.size() > kMaxCandidates) boxes.resize(kMaxCandidates);
+  std::vector<Detection> kept;
+  for (const Detection& box : boxes) {
+    if (kept.size() >= static_cast<std::size_t>(config.max_detections)) break;
+    const bool overlaps = std::any_of(kept.begin(), kept.end(), [&](const Detection& other) {
+      return other.class_id == box.class_id && intersection_over_union(other.box, box.box) > config.nms_iou;
+    });
+    if (!overlaps) kept.push_back(box);
+  }
+  return kept;
+}
+
+/// nullopt where nothing of it is inside.
+std::optional<Box> clipped(const Box& box, ImageSize picture) {
+  const double left = std::clamp(box.x, 0.0, static_cast<double>(picture.width_px));
+  const double right = std::clamp(box.x + box.width, 0.0, static_cast<double>(picture.width_px));
+  const double top = std::clamp(box.y, 0.0, static_cast<double>(picture.height_px));
+  const double bottom = std::clamp(box.y + box.height, 0.0, static_cast<double>(picture.height_px));
+  if (!(right > left && bottom > top)) return std::nullopt;
+  return Box{left, top, right - left, bottom - top};
+}
+
+}  // namespace
+
+double intersection_over_union(const Box& a, const Box& b) {
+  const double width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const double height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  if (!(width > 0 && height > 0)) return 0.0;
+  const double intersection = width * height;
+  return intersection / (a.width * a.height + b.width * b.height - intersection);
+}
+
+DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize picture,
+                         const DetectionConfig& config) {
+  DecodedBoxes decoded = confident_boxes(output, config.confidence);
+  const std::vector<Detection> in_input = suppress_overlaps(std::move(decoded.detections), config);
+  decoded.detections.clear();
+  for (const Detection& detection : in_input) {
+    const auto box = clipped(letterbox.to_picture(detection.box), picture);
+    if (box) decoded.detections.push_back({*box, detection.confidence, detection.class_id});
+  }
+  return decoded;
+}
+
+}  // namespace geoloc::io
