@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ground_grain.hpp"
 
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
@@ -20,6 +21,9 @@ struct Canvas {
   int size() const { return light.cols; }
   float uniform(double low, double high) { return static_cast<float>(random.uniform(low, high)); }
   float texels(double length_m) const { return static_cast<float>(length_m / texel_m); }
+  int per_square_metre(double count) const {
+    return static_cast<int>(count * std::pow(size() * texel_m, 2.0));
+  }
   cv::Point2f anywhere() { return {uniform(0, size()), uniform(0, size())}; }
 };
 
@@ -123,48 +127,78 @@ cv::Mat coloured(Canvas& canvas, const cv::Mat& tint, const cv::Vec3d& gain, dou
   return merged;
 }
 
+cv::Mat grass(Canvas& canvas) {
+  roughen(canvas, 0.25, 1.0);
+  add_blades(canvas, canvas.per_square_metre(500), 0.10, 0.5);
+  return coloured(canvas, {}, {}, 0.03);
+}
+
+cv::Mat dry_grass(Canvas& canvas) {
+  roughen(canvas, 0.2, 1.0);
+  add_blades(canvas, canvas.per_square_metre(400), 0.14, 0.4);
+  add_stones(canvas, canvas.per_square_metre(2), 0.02, 0.08, 0.3);
+  return coloured(canvas, {}, {}, 0.03);
+}
+
+cv::Mat soil(Canvas& canvas) {
+  roughen(canvas, 0.17, 1.0);
+  add_stones(canvas, canvas.per_square_metre(25), 0.015, 0.10, 0.35);
+  return coloured(canvas, {}, {}, 0.01);
+}
+
+cv::Mat sand(Canvas& canvas) {
+  roughen(canvas, 0.06, 1.0);
+  add_stones(canvas, canvas.per_square_metre(0.5), 0.02, 0.08, 0.3);
+  return coloured(canvas, wave(canvas, 128, 2.5), {0.05, 0.045, 0.04}, 0.005);
+}
+
+cv::Mat gravel(Canvas& canvas) {
+  add_stones(canvas, canvas.per_square_metre(420), 0.02, 0.08, 0.4);
+  roughen(canvas, 0.08, 1.0);
+  return coloured(canvas, {}, {}, 0.02);
+}
+
+cv::Mat asphalt(Canvas& canvas) {
+  roughen(canvas, 0.13, 1.2);
+  add_cracks(canvas, canvas.per_square_metre(0.05), 6.0);
+  return coloured(canvas, {}, {}, 0.005);
+}
+
+cv::Mat concrete(Canvas& canvas) {
+  roughen(canvas, 0.06, 1.0);
+  add_joints(canvas, 8);
+  add_cracks(canvas, canvas.per_square_metre(0.02), 2.5);
+  return coloured(canvas, {}, {}, 0.005);
+}
+
+cv::Mat field(Canvas& canvas) {
+  roughen(canvas, 0.22, 1.0);
+  add_blades(canvas, canvas.per_square_metre(250), 0.15, 0.45);
+  add_stones(canvas, canvas.per_square_metre(6), 0.02, 0.08, 0.3);
+  return coloured(canvas, wave(canvas, 32, 0.35), {-0.10, -0.02, -0.16}, 0.03);
+}
+
 }  // namespace
 
 cv::Mat ground_grain(GroundStyle style, int size, double texel_m, cv::RNG& random) {
   Canvas canvas{cv::Mat(size, size, CV_32FC1, cv::Scalar(1.0)), texel_m, random};
-  const double area = std::pow(size * texel_m, 2.0);  // [m^2]
-  const auto a_square_metre = [&](double count) { return static_cast<int>(count * area); };
   switch (style) {
     case GroundStyle::kGrass:
-      roughen(canvas, 0.25, 1.0);
-      add_blades(canvas, a_square_metre(500), 0.10, 0.5);
-      return coloured(canvas, {}, {}, 0.03);
+      return grass(canvas);
     case GroundStyle::kDryGrass:
-      roughen(canvas, 0.2, 1.0);
-      add_blades(canvas, a_square_metre(400), 0.14, 0.4);
-      add_stones(canvas, a_square_metre(2), 0.02, 0.08, 0.3);
-      return coloured(canvas, {}, {}, 0.03);
+      return dry_grass(canvas);
     case GroundStyle::kSoil:
-      roughen(canvas, 0.17, 1.0);
-      add_stones(canvas, a_square_metre(25), 0.015, 0.10, 0.35);
-      return coloured(canvas, {}, {}, 0.01);
+      return soil(canvas);
     case GroundStyle::kSand:
-      roughen(canvas, 0.06, 1.0);
-      add_stones(canvas, a_square_metre(0.5), 0.02, 0.08, 0.3);
-      return coloured(canvas, wave(canvas, 128, 2.5), {0.05, 0.045, 0.04}, 0.005);
+      return sand(canvas);
     case GroundStyle::kGravel:
-      add_stones(canvas, a_square_metre(420), 0.02, 0.08, 0.4);
-      roughen(canvas, 0.08, 1.0);
-      return coloured(canvas, {}, {}, 0.02);
+      return gravel(canvas);
     case GroundStyle::kAsphalt:
-      roughen(canvas, 0.13, 1.2);
-      add_cracks(canvas, a_square_metre(0.05), 6.0);
-      return coloured(canvas, {}, {}, 0.005);
+      return asphalt(canvas);
     case GroundStyle::kConcrete:
-      roughen(canvas, 0.06, 1.0);
-      add_joints(canvas, 8);
-      add_cracks(canvas, a_square_metre(0.02), 2.5);
-      return coloured(canvas, {}, {}, 0.005);
+      return concrete(canvas);
     case GroundStyle::kField:
-      roughen(canvas, 0.22, 1.0);
-      add_blades(canvas, a_square_metre(250), 0.15, 0.45);
-      add_stones(canvas, a_square_metre(6), 0.02, 0.08, 0.3);
-      return coloured(canvas, wave(canvas, 32, 0.35), {-0.10, -0.02, -0.16}, 0.03);
+      return field(canvas);
   }
   return coloured(canvas, {}, {}, 0.0);
 }

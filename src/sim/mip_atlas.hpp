@@ -2,7 +2,7 @@
 #pragma once
 
 #include <array>
-#include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 
 namespace geoloc::sim {
