@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "geoloc/io/detection/opencv_detector.hpp"
+
+// The oracle is ONNX Runtime with a letterbox and a suppression written in numpy:
+// tools/fixtures/make_detection_fixture.py.
+namespace geoloc::io {
+namespace {
+
+constexpr double kTolerance_px = 0.5;
+constexpr double kMargin = 0.01;  // a score so close to the threshold may fall on either side of it
+
+std::vector<Detection> expected_detections(const nlohmann::json& fixture) {
+  std::vector<Detection> detections;
+  for (const auto& entry : fixture.at("detections")) {
+    const auto box = entry.at("box").get<std::array<double, 4>>();
+    detections.push_back({{box[0], box[1], box[2], box[3]}, entry.at("confidence"), entry.at("class_id")});
+  }
+  return detections;
+}
+
+bool is_same(const Detection& a, const Detection& b) {
+  const double differences[] = {a.box.x - b.box.x, a.box.y - b.box.y, a.box.width - b.box.width,
+                                a.box.height - b.box.height};
+  return a.class_id == b.class_id && std::abs(a.confidence - b.confidence) < kMargin &&
+         std::all_of(std::begin(differences), std::end(differences),
+                     [](double d) { return std::abs(d) < kTolerance_px; });
+}
+
+/// Every clear detection of one list is in the other.
+void expect_contains(const std::vector<Detection>& all, const std::vector<Detection>& wanted,
+                     const DetectionConfig& config) {
+  for (const Detection& detection : wanted) {
+    if (detection.confidence < config.confidence + kMargin) continue;
+    EXPECT_TRUE(std::any_of(all.begin(), all.end(),
+                            [&](const Detection& other) { return is_same(detection, other); }))
+        << detection.box.x << " " << detection.box.y << " confidence " << detection.confidence;
+  }
+}
+
+TEST(DefaultModel, FindsWhatOnnxRuntimeFinds) {
+  const std::filesystem::path data{GEOLOC_TEST_DATA_DIR};
+  const auto model = std::filesystem::path{GEOLOC_SOURCE_DIR} / "data/models/fiducial.onnx";
+  const auto fixture = nlohmann::json::parse(std::ifstream{data / "detection/targets.json"});
+  ASSERT_EQ(std::filesystem::file_size(model), fixture.at("model_bytes"))
+      << "the model has changed: run tools/fixtures/make_detection_fixture.py";
+
+  DetectionConfig config;
+  config.confidence = 0.4;
+  config.nms_iou = 0.5;
+  OpencvDetector detector{{model, {}}, config};
+  const auto found = detector.detect(cv::imread((data / "detection/targets.jpg").string()));
+  const auto expected = expected_detections(fixture);
+  EXPECT_GE(expected.size(), 5U);
+  expect_contains(found, expected, config);
+  expect_contains(expected, found, config);
+}
+
+}  // namespace
+}  // namespace geoloc::io
