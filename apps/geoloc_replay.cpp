@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
   if (recording->skipped_lines > 0)
     std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", recording->skipped_lines);
   ProgressLine progress("replaying", recording->frames.size());
-  replay(*recording, *session, [&](std::size_t done) { progress.show(done); });
+  replay(recording->telemetry, recording->frames, *session, [&](std::size_t done) { progress.show(done); });
   progress.finish();
 
   const auto failed = guard("geoloc_replay", kFailed, [&] {

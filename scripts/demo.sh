@@ -29,7 +29,7 @@ if [ ! -f build/release/build.ninja ]; then
   cmake --preset demo >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 fi
 say "Building"
-cmake --build build/release --target geoloc_app geoloc_sim
+cmake --build build/release --target geoloc_app geoloc_replay geoloc_sim
 
 out=${out:-out/$(date +%Y%m%d-%H%M%S)}
 [ ! -e "$out" ] || { echo "$out exists already; name another folder with --out" >&2; exit 2; }

@@ -39,11 +39,11 @@ void take_what_was_known(TelemetryFeed& feed, const io::RecordedFrame& frame, co
 
 }  // namespace
 
-void replay(const io::Recording& recording, Session& session,
+void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& frames, Session& session,
             const std::function<void(std::size_t)>& on_frame) {
-  TelemetryFeed feed(recording.telemetry, session);
+  TelemetryFeed feed(telemetry, session);
   std::size_t done = 0;
-  for (const io::RecordedFrame& frame : recording.frames) {
+  for (const io::RecordedFrame& frame : frames) {
     take_what_was_known(feed, frame, session);
     session.process({frame.captured_at, frame.detections});
     if (on_frame) on_frame(++done);

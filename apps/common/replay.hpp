@@ -2,16 +2,18 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "common/session.hpp"
-#include "geoloc/io/recording/recording_reader.hpp"
+#include "geoloc/io/recording/recording.hpp"
+#include "geoloc/io/recording/tlog.hpp"
 
 namespace geoloc::apps {
 
-/// Feeds a recording to a session in the order of the live run. Where the recording does not tell that order,
-/// each frame waits for the telemetry it needs, as a live run would. `on_frame` is called after each, with
-/// how many are done.
-void replay(const io::Recording& recording, Session& session,
+/// Feeds recorded telemetry and frames to a session in the order of the live run. Where the recording does
+/// not tell that order, each frame waits for the telemetry it needs, as a live run would. `on_frame` is
+/// called after each, with how many are done.
+void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& frames, Session& session,
             const std::function<void(std::size_t)>& on_frame = {});
 
 }  // namespace geoloc::apps

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/experiment.hpp"
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "common/replay.hpp"
+#include "common/run_outputs.hpp"
+#include "geoloc/sim/flight.hpp"
+#include "geoloc/sim/scenario.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+/// One recording, replayed by each method.
+struct Task {
+  const sim::Flight* flight;
+  int scenario;
+  std::uint64_t seed;
+  std::size_t first_result;  // of as many as there are methods
+};
+
+void run_task(const Experiment& experiment, const Task& task, std::vector<RunResult>& results) {
+  sim::RecordingSettings settings = experiment.recording;
+  settings.run.scenario = task.scenario;
+  settings.run.seed = task.seed;
+  const auto targets_in_enu = sim::make_scenario(task.scenario, task.seed);
+  const auto frames = sim::generate_frames(*task.flight, settings, targets_in_enu);
+  const auto truth = sim::true_targets(targets_in_enu, task.flight->truth.frame());
+
+  for (std::size_t m = 0; m < experiment.methods.size(); ++m) {
+    EstimationConfig config = experiment.estimation;
+    config.geolocator.camera = sim::nominal_camera(settings.run);
+    config.geolocator.method = experiment.methods[m];
+    Session session(config);
+    replay(task.flight->telemetry, frames, session);
+    results[task.first_result + m] = {task.flight->name, task.scenario, task.seed, experiment.methods[m],
+                                      score_run(session, truth)};
+  }
+}
+
+/// Runs step(i) for i below `count` on several threads; the first exception is passed on.
+void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& step) {
+  std::atomic<std::size_t> next{0};
+  std::exception_ptr failure;
+  std::mutex failure_mutex;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        step(i);
+      } catch (...) {
+        const std::lock_guard lock(failure_mutex);
+        if (!failure) failure = std::current_exception();
+        next = count;
+      }
+    }
+  };
+  std::vector<std::thread> crew;
+  for (unsigned i = 1; i < threads; ++i) crew.emplace_back(work);
+  work();
+  for (std::thread& member : crew) member.join();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+std::vector<RunResult> run_experiment(
+    const Experiment& experiment, unsigned threads,
+    const std::function<void(std::size_t done, std::size_t total)>& on_run) {
+  std::vector<sim::Flight> flights;
+  for (const std::string& name : experiment.flights) {
+    flights.push_back(sim::load_flight(experiment.flights_folder, name));
+  }
+  std::vector<Task> tasks;
+  for (const sim::Flight& flight : flights) {
+    for (const int scenario : experiment.scenarios) {
+      for (const std::uint64_t seed : experiment.seeds) {
+        tasks.push_back({&flight, scenario, seed, tasks.size() * experiment.methods.size()});
+      }
+    }
+  }
+  std::vector<RunResult> results(tasks.size() * experiment.methods.size());
+  std::mutex progress_mutex;
+  std::size_t done = 0;
+  parallel_for(tasks.size(), threads, [&](std::size_t i) {
+    run_task(experiment, tasks[i], results);
+    const std::lock_guard lock(progress_mutex);
+    on_run(++done, tasks.size());
+  });
+  return results;
+}
+
+}  // namespace geoloc::apps

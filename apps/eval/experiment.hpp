@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/estimation_config.hpp"
+#include "geoloc/evaluation/score.hpp"
+#include "geoloc/sim/recording_generator.hpp"
+
+namespace geoloc::apps {
+
+/// The paper's protocol: every flight over every scenario, for several seeds.
+struct Experiment {
+  std::filesystem::path flights_folder;
+  std::vector<std::string> flights;
+  std::vector<int> scenarios{1, 2, 3};
+  std::vector<std::uint64_t> seeds{0, 1, 2};
+  std::vector<Method> methods{Method::kPaper};
+  sim::RecordingSettings recording;  ///< flight, scenario and seed are set for each run
+  EstimationConfig estimation;       ///< camera and method are set for each run
+};
+
+struct RunResult {
+  std::string flight;
+  int scenario = 0;
+  std::uint64_t seed = 0;
+  Method method = Method::kPaper;
+  Score score;
+};
+
+/// All runs, in the order flight, scenario, seed, method, whatever the number of threads. `on_run` is called
+/// after each, from any thread, one at a time. Throws std::runtime_error for a flight that cannot be loaded.
+std::vector<RunResult> run_experiment(const Experiment& experiment, unsigned threads,
+                                      const std::function<void(std::size_t done, std::size_t total)>& on_run);
+
+}  // namespace geoloc::apps

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+namespace geoloc::apps {
+namespace {
+
+const char* name_of(Method method) {
+  switch (method) {
+    case Method::kPaper:
+      return "paper";
+  }
+  return "";
+}
+
+/// stock_path1 belongs to the set stock.
+std::string set_of(const std::string& flight) {
+  return flight.substr(0, flight.find('_'));
+}
+
+Summary& summary_of(std::vector<Summary>& summaries, const RunResult& run) {
+  const std::string set = set_of(run.flight);
+  for (Summary& summary : summaries) {
+    if (summary.set == set && summary.method == run.method) return summary;
+  }
+  summaries.push_back({});
+  summaries.back().set = set;
+  summaries.back().method = run.method;
+  return summaries.back();
+}
+
+/// RMSE / found of one flight and scenario: means over the seeds.
+std::string cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
+                 Method method) {
+  double rmse_m = 0.0, found = 0.0;
+  int runs = 0;
+  for (const RunResult& run : results) {
+    if (run.flight != flight || run.scenario != scenario || run.method != method) continue;
+    ++runs;
+    rmse_m += run.score.rmse_m;
+    found += run.score.found;
+  }
+  return runs == 0 ? "" : fmt::format("{:.3f} / {:.1f}", rmse_m / runs, found / runs);
+}
+
+std::vector<std::string> flights_of(const std::vector<RunResult>& results, const std::string& set) {
+  std::vector<std::string> flights;
+  for (const RunResult& run : results) {
+    if (set_of(run.flight) == set && (flights.empty() || flights.back() != run.flight))
+      flights.push_back(run.flight);
+  }
+  return flights;
+}
+
+}  // namespace
+
+std::vector<Summary> summarize(const std::vector<RunResult>& results) {
+  std::vector<Summary> summaries;
+  for (const RunResult& run : results) {
+    Summary& summary = summary_of(summaries, run);
+    ++summary.runs;
+    summary.mean_rmse_m += run.score.rmse_m;
+    summary.mean_relative_rmse_m += run.score.relative_rmse_m;
+    summary.found += run.score.found;
+    summary.targets += run.score.targets;
+    summary.extra += run.score.extra;
+    summary.merged_pairs += run.score.merged_pairs;
+  }
+  for (Summary& summary : summaries) {
+    summary.mean_rmse_m /= summary.runs;
+    summary.mean_relative_rmse_m /= summary.runs;
+  }
+  return summaries;
+}
+
+std::string to_markdown(const std::vector<RunResult>& results) {
+  const std::vector<Summary> summaries = summarize(results);
+  std::string text =
+      "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs |\n"
+      "|---|---|---|---|---|---|---|---|\n";
+  const auto out = std::back_inserter(text);
+  for (const Summary& s : summaries) {
+    fmt::format_to(out, "| {} | {} | {} | {:.3f} | {:.3f} | {}/{} | {} | {} |\n", s.set, name_of(s.method),
+                   s.runs, s.mean_rmse_m, s.mean_relative_rmse_m, s.found, s.targets, s.extra,
+                   s.merged_pairs);
+  }
+  for (const Summary& s : summaries) {
+    fmt::format_to(out, "\n{}, {}: RMSE m / targets found, means over the seeds\n\n", s.set,
+                   name_of(s.method));
+    text += "| flight | scenario 1 | scenario 2 | scenario 3 |\n|---|---|---|---|\n";
+    for (const std::string& flight : flights_of(results, s.set)) {
+      fmt::format_to(out, "| {} | {} | {} | {} |\n", flight, cell(results, flight, 1, s.method),
+                     cell(results, flight, 2, s.method), cell(results, flight, 3, s.method));
+    }
+  }
+  return text;
+}
+
+std::string to_json(const std::vector<RunResult>& results) {
+  auto runs = nlohmann::ordered_json::array();
+  for (const RunResult& run : results) {
+    runs.push_back({{"flight", run.flight},
+                    {"scenario", run.scenario},
+                    {"seed", run.seed},
+                    {"method", name_of(run.method)},
+                    {"rmse_m", run.score.rmse_m},
+                    {"relative_rmse_m", run.score.relative_rmse_m},
+                    {"found", run.score.found},
+                    {"targets", run.score.targets},
+                    {"extra", run.score.extra},
+                    {"merged_pairs", run.score.merged_pairs}});
+  }
+  auto summaries = nlohmann::ordered_json::array();
+  for (const Summary& s : summarize(results)) {
+    summaries.push_back({{"set", s.set},
+                         {"method", name_of(s.method)},
+                         {"runs", s.runs},
+                         {"mean_rmse_m", s.mean_rmse_m},
+                         {"mean_relative_rmse_m", s.mean_relative_rmse_m},
+                         {"found", s.found},
+                         {"targets", s.targets},
+                         {"extra", s.extra},
+                         {"merged_pairs", s.merged_pairs}});
+  }
+  return nlohmann::ordered_json{{"summaries", summaries}, {"runs", runs}}.dump(1) + "\n";
+}
+
+}  // namespace geoloc::apps

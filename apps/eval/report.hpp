@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "eval/experiment.hpp"
+
+namespace geoloc::apps {
+
+/// Means over the runs of one set of flights (stock, gnss), method and, unless nullopt, seed.
+struct Summary {
+  std::string set;
+  Method method = Method::kPaper;
+  int runs = 0;
+  double mean_rmse_m = 0.0;
+  double mean_relative_rmse_m = 0.0;
+  int found = 0;
+  int targets = 0;
+  int extra = 0;
+  int merged_pairs = 0;
+};
+
+/// One for each set and method, in the order they first appear.
+std::vector<Summary> summarize(const std::vector<RunResult>& results);
+
+/// The paper's table 1 for each set and method (means over the seeds), and the summaries.
+std::string to_markdown(const std::vector<RunResult>& results);
+
+/// Every run and every summary.
+std::string to_json(const std::vector<RunResult>& results);
+
+}  // namespace geoloc::apps
