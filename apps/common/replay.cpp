@@ -48,6 +48,7 @@ void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& fra
     session.process({frame.captured_at, frame.detections});
     if (on_frame) on_frame(++done);
   }
+  while (!feed.is_empty()) feed.take();  // a live run counts what comes after its last frame, too
 }
 
 }  // namespace geoloc::apps
