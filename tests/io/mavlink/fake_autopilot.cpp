@@ -42,33 +42,46 @@ void FakeAutopilot::receive(const std::uint8_t* frame, std::size_t size, HostTim
   heard_now.sender = {message.sysid, message.compid};
   heard_now.is_v2 = message.magic == MAVLINK_STX;
   heard_now.message_id = message.msgid;
-  if (message.msgid == MAVLINK_MSG_ID_HEARTBEAT)
-    heard_now.vehicle_type = mavlink_msg_heartbeat_get_type(&message);
-  if (message.msgid == MAVLINK_MSG_ID_TIMESYNC && character.answers_timesync) {
-    answers_ = std::move(answers_) + frames_.timesync(clock(now).time_since_epoch().count(),
-                                                      mavlink_msg_timesync_get_ts1(&message));
-  }
-  if (message.msgid == MAVLINK_MSG_ID_COMMAND_LONG) {
+  // The generated decoders copy the payload out of the packed struct; its getters read it where it lies,
+  // misaligned.
+  if (message.msgid == MAVLINK_MSG_ID_HEARTBEAT) {
+    mavlink_heartbeat_t heartbeat;
+    mavlink_msg_heartbeat_decode(&message, &heartbeat);
+    heard_now.vehicle_type = heartbeat.type;
+  } else if (message.msgid == MAVLINK_MSG_ID_TIMESYNC && character.answers_timesync) {
+    mavlink_timesync_t request;
+    mavlink_msg_timesync_decode(&message, &request);
+    answers_ = std::move(answers_) + frames_.timesync(clock(now).time_since_epoch().count(), request.ts1);
+  } else if (message.msgid == MAVLINK_MSG_ID_COMMAND_LONG) {
     mavlink_command_long_t command;
     mavlink_msg_command_long_decode(&message, &command);
     EXPECT_EQ(command.command, MAV_CMD_SET_MESSAGE_INTERVAL);
-    EXPECT_EQ(command.target_system, 1);
-    EXPECT_EQ(command.target_component, 1);
+    EXPECT_EQ((MavAddress{command.target_system, command.target_component}), (MavAddress{1, 1}));
     heard_now.wanted_message_id = static_cast<std::uint32_t>(command.param1);
     heard_now.wanted_rate_hz = 1e6 / command.param2;
-    if (character.obeys_intervals) {
-      streams_[heard_now.wanted_message_id] = {period_of(heard_now.wanted_rate_hz), now};
-    }
-    if (character.answer) answers_ = std::move(answers_) + frames_.command_ack(511, *character.answer);
-  }
-  if (message.msgid == MAVLINK_MSG_ID_REQUEST_DATA_STREAM) {
-    heard_now.data_stream = mavlink_msg_request_data_stream_get_req_stream_id(&message);
-    const Duration period = period_of(mavlink_msg_request_data_stream_get_req_message_rate(&message));
-    const bool obeys = character.obeys_data_streams;
-    if (obeys && heard_now.data_stream == MAV_DATA_STREAM_EXTRA1) streams_[30] = {period, now};
-    if (obeys && heard_now.data_stream == MAV_DATA_STREAM_POSITION) streams_[33] = {period, now};
+    obey_interval(heard_now);
+  } else if (message.msgid == MAVLINK_MSG_ID_REQUEST_DATA_STREAM) {
+    mavlink_request_data_stream_t request;
+    mavlink_msg_request_data_stream_decode(&message, &request);
+    heard_now.data_stream = request.req_stream_id;
+    heard_now.wanted_rate_hz = request.req_message_rate;
+    obey_data_stream(heard_now);
   }
   heard.push_back(heard_now);
+}
+
+void FakeAutopilot::obey_interval(const Heard& request) {
+  if (character.obeys_intervals) {
+    streams_[request.wanted_message_id] = {period_of(request.wanted_rate_hz), request.at};
+  }
+  if (character.answer) answers_ = std::move(answers_) + frames_.command_ack(511, *character.answer);
+}
+
+void FakeAutopilot::obey_data_stream(const Heard& request) {
+  if (!character.obeys_data_streams) return;
+  const Stream stream{period_of(request.wanted_rate_hz), request.at};
+  if (request.data_stream == MAV_DATA_STREAM_EXTRA1) streams_[MAVLINK_MSG_ID_ATTITUDE] = stream;
+  if (request.data_stream == MAV_DATA_STREAM_POSITION) streams_[MAVLINK_MSG_ID_GLOBAL_POSITION_INT] = stream;
 }
 
 Bytes FakeAutopilot::say(std::uint32_t message_id, HostTime now) {

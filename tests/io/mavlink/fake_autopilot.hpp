@@ -32,9 +32,9 @@ class FakeAutopilot {
     bool is_v2 = false;
     std::uint32_t message_id = 0;
     std::uint32_t wanted_message_id = 0;  ///< of MAV_CMD_SET_MESSAGE_INTERVAL
-    double wanted_rate_hz = 0.0;
-    std::uint8_t data_stream = 0;
-    int vehicle_type = -1;  ///< of HEARTBEAT
+    std::uint8_t data_stream = 0;         ///< of REQUEST_DATA_STREAM
+    double wanted_rate_hz = 0.0;          ///< of either
+    int vehicle_type = -1;                ///< of HEARTBEAT
   };
 
   explicit FakeAutopilot(HostTime booted_at) : booted_at_(booted_at), frames_({1, 1}) {}
@@ -58,6 +58,8 @@ class FakeAutopilot {
     HostTime next;
   };
 
+  void obey_interval(const Heard& request);
+  void obey_data_stream(const Heard& request);
   Bytes say(std::uint32_t message_id, HostTime now);
 
   HostTime booted_at_;
