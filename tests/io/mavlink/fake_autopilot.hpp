@@ -18,7 +18,6 @@ class FakeAutopilot {
  public:
   struct Character {
     std::uint8_t autopilot = kArduPilot;
-    bool speaks_v2 = true;
     std::optional<std::uint8_t> answer = 0;  ///< MAV_RESULT to interval requests; nullopt: none
     bool obeys_intervals = true;
     bool obeys_data_streams = false;
