@@ -13,33 +13,32 @@ std::uint64_t missing_between(std::uint8_t before, std::uint8_t after) {
 
 }  // namespace
 
-SequenceTracker::Sender* SequenceTracker::find(MavAddress address) {
+std::optional<std::size_t> SequenceTracker::find(MavAddress address) const {
   for (std::size_t i = 0; i < count_; ++i) {
-    if (senders_[i].address == address) return &senders_[i];
+    if (senders_[i].address == address) return i;
   }
-  return nullptr;
+  return std::nullopt;
 }
 
 void SequenceTracker::observe(MavAddress sender, std::uint8_t sequence) {
-  if (find(sender) == nullptr && count_ < kSenders) {
+  if (!find(sender) && count_ < kSenders) {
     senders_[count_++] = {sender, sequence, 0};
-    return;
+  } else {
+    observe_unchecked(sender, sequence);
   }
-  observe_unchecked(sender, sequence);
 }
 
 void SequenceTracker::observe_unchecked(MavAddress sender, std::uint8_t sequence) {
-  Sender* const known = find(sender);
-  if (known == nullptr) return;
-  known->lost += missing_between(known->sequence, sequence);
-  known->sequence = sequence;
+  const auto found = find(sender);
+  if (!found) return;
+  Sender& known = senders_[*found];
+  known.lost += missing_between(known.sequence, sequence);
+  known.sequence = sequence;
 }
 
 std::uint64_t SequenceTracker::lost(MavAddress sender) const {
-  for (std::size_t i = 0; i < count_; ++i) {
-    if (senders_[i].address == sender) return senders_[i].lost;
-  }
-  return 0;
+  const auto found = find(sender);
+  return found ? senders_[*found].lost : 0;
 }
 
 std::uint64_t SequenceTracker::lost() const {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/mavlink/vehicle_link.hpp"
 
-#include <cmath>
-#include <utility>
+#include <chrono>
 #include <variant>
 #include <vector>
 
@@ -55,20 +54,6 @@ void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
 
 }  // namespace
 
-std::vector<std::string> MavlinkConfig::problems() const {
-  Problems found;
-  found.require(system_id >= 0 && system_id <= 255, "mavlink.system_id must lie in [0, 255]");
-  found.require(component_id >= 2 && component_id <= 255,
-                "mavlink.component_id must lie in [2, 255]: 1 is the autopilot");
-  found.require(attitude_rate_hz >= 1.0 && attitude_rate_hz <= 50.0,
-                "mavlink.attitude_rate_hz must lie in [1, 50]");
-  found.require(position_rate_hz >= 1.0 && position_rate_hz <= 50.0,
-                "mavlink.position_rate_hz must lie in [1, 50]");
-  found.require(link_timeout_s >= 0.5 && link_timeout_s <= 60.0,
-                "mavlink.link_timeout_s must lie in [0.5, 60]");
-  return found.take();
-}
-
 VehicleLink::VehicleLink(const MavlinkConfig& config) : config_(config) {
   throw_if_any(config.problems());
 }
@@ -89,7 +74,8 @@ bool VehicleLink::consume(HostTime received_at, const std::uint8_t* data, std::s
 bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
   arrival.sink.on_frame(arrival.at, frame.bytes, frame.size);
   const Message message = decode(frame);
-  if (!is_of_vehicle(frame, message, arrival.at)) {
+  if (!vehicle_) choose_vehicle(frame, message, arrival.at);
+  if (!vehicle_ || frame.sender != *vehicle_) {
     ++counts_.foreign_frames;
     return false;
   }
@@ -102,18 +88,14 @@ bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
   return true;
 }
 
-bool VehicleLink::is_of_vehicle(const Frame& frame, const Message& message, HostTime received_at) {
-  if (vehicle_) return frame.sender == *vehicle_;
+void VehicleLink::choose_vehicle(const Frame& frame, const Message& message, HostTime received_at) {
   const auto* const heartbeat = std::get_if<Heartbeat>(&message);
-  const bool is_wanted = config_.system_id == 0 || config_.system_id == frame.sender.system;
-  if (heartbeat == nullptr || !is_wanted || !heartbeat->is_from_autopilot() ||
-      frame.sender.component != kAutopilotComponent) {
-    return false;
-  }
+  if (heartbeat == nullptr || !heartbeat->is_from_autopilot()) return;
+  if (frame.sender.component != kAutopilotComponent) return;
+  if (config_.system_id != 0 && config_.system_id != frame.sender.system) return;
   vehicle_ = frame.sender;
   last_heard_ = received_at;
   requests_.want(wanted_streams(config_, heartbeat->is_from_ardupilot()), received_at);
-  return true;
 }
 
 bool VehicleLink::accept_stamp(VehicleTime stamp, const Arrival& arrival) {

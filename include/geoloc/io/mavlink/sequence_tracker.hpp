@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "geoloc/io/mavlink/frame.hpp"
 
@@ -34,7 +35,7 @@ class SequenceTracker {
     std::uint64_t lost = 0;
   };
 
-  Sender* find(MavAddress address);
+  std::optional<std::size_t> find(MavAddress address) const;
 
   std::array<Sender, kSenders> senders_{};
   std::size_t count_ = 0;

@@ -53,7 +53,7 @@ class VehicleLink {
   };
 
   bool take(const Frame& frame, const Arrival& arrival);
-  bool is_of_vehicle(const Frame& frame, const Message& message, HostTime received_at);
+  void choose_vehicle(const Frame& frame, const Message& message, HostTime received_at);
   bool accept_stamp(VehicleTime stamp, const Arrival& arrival);
 
   void handle(const NotDecoded&, const Arrival&) {}
