@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "images_mode.hpp"
 
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
+#include "app/stop_signal.hpp"
 #include "geoloc/sim/labelled_images.hpp"
 
 namespace geoloc::sim {
-namespace {
-
-volatile std::sig_atomic_t interrupted = 0;  // a signal handler reaches nothing but a global
-
-void interrupt(int /*signal*/) {
-  interrupted = 1;
-}
-
-}  // namespace
 
 CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options) {
   CLI::Option* const images =
@@ -34,12 +25,11 @@ int run_images_mode(const ImagesOptions& options, std::uint64_t seed) {
     std::fprintf(stderr, "geoloc_sim: --out %s exists already; name a new folder\n", options.folder.c_str());
     return 2;
   }
-  std::signal(SIGINT, interrupt);
-  std::signal(SIGTERM, interrupt);
+  const apps::StopSignal stop;
   const auto progress = [&](int done) {
     if (done % 10 == 0 || done == options.count)
       std::fprintf(stderr, "\r%d / %d pictures", done, options.count);
-    return interrupted == 0;
+    return !stop.is_requested();
   };
   try {
     const bool whole = write_labelled_images(options.count, seed, options.folder, progress);

@@ -122,6 +122,16 @@ void write_shot(const Shot& shot, Grounds& grounds, const std::filesystem::path&
   if (!labels) throw std::runtime_error(label_file + ": cannot be written; is the disk full?");
 }
 
+/// What is not renamed at the end, for whatever reason, is not left behind.
+struct Unfinished {
+  std::filesystem::path folder;
+
+  ~Unfinished() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder, ignored);
+  }
+};
+
 }  // namespace
 
 Shot random_shot(std::uint64_t seed, int index) {
@@ -160,23 +170,21 @@ std::vector<VisibleBox> labels_of(const Shot& shot) {
 bool write_labelled_images(int count, std::uint64_t seed, const std::filesystem::path& folder,
                            const std::function<bool(int)>& progress) {
   namespace fs = std::filesystem;
-  if (fs::exists(folder)) throw std::runtime_error(folder.string() + ": exists already; name a new folder");
-  const fs::path unfinished = folder.string() + ".partial";
-  fs::remove_all(unfinished);
-  fs::create_directories(unfinished / "images");
-  fs::create_directories(unfinished / "labels");
+  const fs::path target = folder.has_filename() ? folder : folder.parent_path();  // "pictures/" is "pictures"
+  if (fs::exists(target)) throw std::runtime_error(target.string() + ": exists already; name a new folder");
+  const Unfinished unfinished{target.string() + ".partial"};
+  fs::remove_all(unfinished.folder);
+  fs::create_directories(unfinished.folder / "images");
+  fs::create_directories(unfinished.folder / "labels");
   Grounds grounds;
   cv::Mat picture;
   for (int index = 0; index < count; ++index) {
     std::ostringstream name;
     name << std::setw(5) << std::setfill('0') << index;
-    write_shot(random_shot(seed, index), grounds, unfinished, name.str(), picture);
-    if (!progress(index + 1)) {
-      fs::remove_all(unfinished);
-      return false;
-    }
+    write_shot(random_shot(seed, index), grounds, unfinished.folder, name.str(), picture);
+    if (!progress(index + 1)) return false;
   }
-  fs::rename(unfinished, folder);
+  fs::rename(unfinished.folder, target);
   return true;
 }
 
