@@ -19,7 +19,7 @@ using namespace geoloc::apps;
 
 struct Options {
   std::string flights = "all";
-  std::string method = "paper";
+  std::string method = "both";
   std::vector<std::uint64_t> seeds{0, 1, 2};
   std::string config_file;
   std::string report_folder;
@@ -32,7 +32,7 @@ void add_options(CLI::App& program, Options& options) {
       ->check(CLI::IsMember({"stock", "gnss", "all"}))
       ->capture_default_str();
   program.add_option("--method", options.method, "Which estimator")
-      ->check(CLI::IsMember({"paper"}))
+      ->check(CLI::IsMember({"paper", "full", "both"}))
       ->capture_default_str();
   program.add_option("--seeds", options.seeds, "Seeds of targets and errors")
       ->delimiter(',')
@@ -55,6 +55,8 @@ Experiment make_experiment(const Options& options) {
     for (int path = 1; path <= 6; ++path)
       experiment.flights.push_back(std::string(set) + "_path" + std::to_string(path));
   }
+  if (options.method == "paper") experiment.methods = {Method::kPaper};
+  if (options.method == "full") experiment.methods = {Method::kFull};
   experiment.seeds = options.seeds;
   if (!options.config_file.empty()) {
     std::vector<std::string> problems;

@@ -52,7 +52,7 @@ EstimationConfig choose_config(const Options& options, const io::Recording* reco
 
 void add_options(CLI::App& program, Options& options) {
   program.add_option("recording", options.recording, "Folder of a recording")->type_name("RECORDING");
-  program.add_option("--method", options.method, "paper")->type_name("NAME");
+  program.add_option("--method", options.method, "full, or paper")->type_name("NAME");
   program.add_option("--config", options.config_file, "Settings, JSON (see --print-config)")
       ->type_name("FILE");
   program.add_option("--truth", options.truth_file, "True targets, GeoJSON; default: the recording's own")

@@ -6,10 +6,31 @@
 #include "common/command_line.hpp"
 #include "common/data_files.hpp"
 #include "geoloc/io/detection/opencv_detector.hpp"
+#include "geoloc/io/recording/recording_reader.hpp"
 #include "geoloc/io/video/file_source.hpp"
 #include "geoloc/io/video/rtsp_source.hpp"
 
 namespace geoloc::apps {
+namespace {
+
+std::unique_ptr<io::Detector> make_detector(const LiveOptions& options, const io::DetectionConfig& config) {
+  io::DetectorFiles files;
+  files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
+                                           : std::filesystem::path(options.model_file);
+  if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
+  return std::make_unique<io::OpencvDetector>(files, config);
+}
+
+std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, const io::VideoConfig& config,
+                                                   const io::HostClock& clock) {
+  if (options.rtsp_url.empty() == options.video_file.empty()) {
+    throw std::invalid_argument("give one of --rtsp URL and --video FILE");
+  }
+  if (!options.rtsp_url.empty()) return std::make_unique<io::RtspSource>(options.rtsp_url, config, clock);
+  return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock);
+}
+
+}  // namespace
 
 void add_live_options(CLI::App& program, LiveOptions& options) {
   const auto add = [&program](const char* name, std::string& value, const char* help, const char* type) {
@@ -20,7 +41,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add("--rtsp", options.rtsp_url, "Camera stream, H.264", "URL");
   add("--video", options.video_file, "A video file in place of a stream, played in real time", "FILE");
   add("--config", options.config_file, "Settings, JSON (see --print-config)", "FILE");
-  add("--method", options.method, "paper", "NAME");
+  add("--method", options.method, "full, or paper", "NAME");
   add("--model", options.model_file, "Detector, ONNX with YOLO11's output; default: the fiducial target's",
       "FILE");
   add("--class-names", options.class_names_file, "A class name a line; default: those in the model", "FILE");
@@ -45,21 +66,25 @@ LiveConfig load_config(const LiveOptions& options) {
   return config;
 }
 
-std::unique_ptr<io::Detector> make_detector(const LiveOptions& options, const io::DetectionConfig& config) {
-  io::DetectorFiles files;
-  files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
-                                           : std::filesystem::path(options.model_file);
-  if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
-  return std::make_unique<io::OpencvDetector>(files, config);
-}
-
-std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, const io::VideoConfig& config,
-                                                   const io::HostClock& clock) {
-  if (options.rtsp_url.empty() == options.video_file.empty()) {
-    throw std::invalid_argument("give one of --rtsp URL and --video FILE");
-  }
-  if (!options.rtsp_url.empty()) return std::make_unique<io::RtspSource>(options.rtsp_url, config, clock);
-  return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock);
+LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
+  LiveInputs inputs;
+  std::string faults;
+  const auto attempt = [&faults](const auto& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      faults += (faults.empty() ? "" : "\n") + std::string(error.what());
+    }
+  };
+  attempt([&] { inputs.config = load_config(options); });
+  attempt([&] {
+    if (!options.truth_file.empty()) inputs.truth = io::read_truth(options.truth_file);
+  });
+  attempt([&] { inputs.detector = make_detector(options, inputs.config.detection); });
+  attempt([&] { inputs.socket = std::make_unique<io::UdpSocket>(io::parse_udp_endpoint(options.udp)); });
+  attempt([&] { inputs.video = make_video_source(options, inputs.config.video, clock); });
+  if (!faults.empty()) throw std::runtime_error(faults);
+  return inputs;
 }
 
 }  // namespace geoloc::apps

@@ -19,7 +19,7 @@ struct Experiment {
   std::vector<std::string> flights;
   std::vector<int> scenarios{1, 2, 3};
   std::vector<std::uint64_t> seeds{0, 1, 2};
-  std::vector<Method> methods{Method::kPaper};
+  std::vector<Method> methods{Method::kPaper, Method::kFull};
   sim::RecordingSettings recording;  ///< flight, scenario and seed are set for each run
   EstimationConfig estimation;       ///< camera and method are set for each run
 };

@@ -14,6 +14,8 @@ const char* name_of(Method method) {
   switch (method) {
     case Method::kPaper:
       return "paper";
+    case Method::kFull:
+      return "full";
   }
   return "";
 }

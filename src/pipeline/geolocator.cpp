@@ -21,6 +21,11 @@ bool is_usable(const Detection& detection) {
          box.height > 0.0 && std::isfinite(box.height) && std::isfinite(detection.confidence);
 }
 
+std::variant<PaperTracker, FullTracker> make_tracker(const GeolocatorConfig& config) {
+  if (config.method == Method::kPaper) return PaperTracker(config.paper, config.max_detections);
+  return FullTracker(config.full, config.max_detections);
+}
+
 /// Total order on what a detection is: whatever order a detector lists them in, they are treated alike.
 bool canonical_order(const Detection& a, const Detection& b) {
   const auto key = [](const Detection& d) {
@@ -38,6 +43,7 @@ std::vector<std::string> GeolocatorConfig::problems() const {
   found.add(state.problems());
   found.add(projector.problems());
   found.add(paper.problems());
+  found.add(full.problems());
   return found.take();
 }
 
@@ -45,30 +51,55 @@ Geolocator::Geolocator(const GeolocatorConfig& config)
     : config_(checked(config)),
       state_(config.state),
       projector_(config.projector, config.camera.intrinsics),
-      tracker_(config.paper, config.max_detections) {
+      tracker_(make_tracker(config)) {
   selected_.reserve(static_cast<std::size_t>(config.max_detections));
   located_.reserve(static_cast<std::size_t>(config.max_detections));
 }
 
+const std::vector<Track>& Geolocator::tracks() const {
+  return std::visit([](const auto& tracker) -> const std::vector<Track>& { return tracker.tracks(); },
+                    tracker_);
+}
+
+const TrackCounters& Geolocator::track_counters() const {
+  return std::visit([](const auto& tracker) -> const TrackCounters& { return tracker.counters(); }, tracker_);
+}
+
+std::optional<Calibration> Geolocator::calibration() const {
+  const auto* full = std::get_if<FullTracker>(&tracker_);
+  if (full == nullptr) return std::nullopt;
+  return full->calibration();
+}
+
+Duration Geolocator::latency() const {
+  const auto* full = std::get_if<FullTracker>(&tracker_);
+  return full == nullptr ? Duration::zero() : from_seconds(full->calibration().latency_s());
+}
+
+Rigid3d Geolocator::calibrated_camera_pose(const VehicleState& vehicle) const {
+  Rigid3d pose = enu_from_camera(vehicle, config_.camera.mount, config_.camera_orientation);
+  if (const auto* full = std::get_if<FullTracker>(&tracker_)) full->calibration().apply_to(pose);
+  return pose;
+}
+
 std::optional<NoState> Geolocator::missing_state(VehicleTime captured_at) const {
-  const auto state = state_.at(captured_at);
+  const auto state = state_.at(captured_at - latency());
   if (state) return std::nullopt;
   return state.error();
 }
 
 bool Geolocator::process(const FrameDetections& frame) {
   ++counters_.frames;
-  const auto vehicle = state_.at(frame.captured_at);
+  const auto vehicle = state_.at(frame.captured_at - latency());
   if (!vehicle) {
     ++counters_.frames_unusable;
     return false;
   }
   ++counters_.frames_located;
-  vehicle_ = *vehicle;
-  enu_from_camera_ = geoloc::enu_from_camera(vehicle_, config_.camera.mount, config_.camera_orientation);
+  view_ = {*vehicle, calibrated_camera_pose(*vehicle), frame.captured_at_host};
   select(frame.detections);
   locate();
-  tracker_.update(located_, projector_, enu_from_camera_, frame.captured_at_host);
+  std::visit([&](auto& tracker) { tracker.update(located_, projector_, view_); }, tracker_);
   return true;
 }
 
@@ -93,7 +124,7 @@ void Geolocator::select(const std::vector<Detection>& detections) {
 void Geolocator::locate() {
   located_.clear();
   for (const Detection& detection : selected_) {
-    const auto fix = projector_.project(detection.box.centre(), enu_from_camera_);
+    const auto fix = projector_.project(detection.box.centre(), view_.enu_from_camera);
     if (fix) {
       located_.push_back({detection, *fix});
     } else {

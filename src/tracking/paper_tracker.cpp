@@ -24,12 +24,7 @@ void count_hit(Track& track, const Detection& detection, HostTime captured_at) {
 void absorb(Track& kept, const Track& gone) {
   kept.position_in_enu =
       kalman_update(kept.position_in_enu, gone.position_in_enu.mean, gone.position_in_enu.covariance);
-  kept.hits += gone.hits;
-  kept.confidence_sum += gone.confidence_sum;
-  kept.class_votes.add(gone.class_votes);
-  kept.penalty = std::min(kept.penalty, gone.penalty);
-  kept.first_seen = std::min(kept.first_seen, gone.first_seen);
-  kept.last_seen = std::max(kept.last_seen, gone.last_seen);
+  merge_records(kept, gone);
 }
 
 }  // namespace
@@ -65,11 +60,11 @@ PaperTracker::PaperTracker(const PaperTrackerConfig& config, int max_detections)
 }
 
 void PaperTracker::update(const std::vector<LocatedDetection>& detections, const Projector& projector,
-                          const Rigid3d& enu_from_camera, HostTime captured_at) {
+                          const FrameView& view) {
   associate(detections);
-  update_matched(detections, captured_at);
-  penalise_missed(projector, enu_from_camera);
-  start_tentative(detections, captured_at);
+  update_matched(detections, view.captured_at_host);
+  penalise_missed(projector, view.enu_from_camera);
+  start_tentative(detections, view.captured_at_host);
   remove_unreliable();
   merge_near_confirmed();
 }

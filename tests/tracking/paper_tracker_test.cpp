@@ -27,7 +27,10 @@ class PaperTrackerLife : public ::testing::Test {
       detections.push_back(located);
     }
     now_ += std::chrono::milliseconds{100};
-    tracker_.update(detections, projector_, enu_from_body * body_from_camera(CameraMount{}), now_);
+    FrameView view;
+    view.enu_from_camera = enu_from_body * body_from_camera(CameraMount{});
+    view.captured_at_host = now_;
+    tracker_.update(detections, projector_, view);
   }
 
   const std::vector<Track>& tracks() const { return tracker_.tracks(); }

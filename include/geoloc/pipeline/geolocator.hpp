@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <variant>
 #include <vector>
 
+#include "geoloc/calibration/full_tracker.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 #include "geoloc/state/state_provider.hpp"
@@ -49,32 +51,35 @@ class Geolocator {
   bool process(const FrameDetections& frame);
 
   /// All objects, tentative and confirmed, in order of their ids.
-  const std::vector<Track>& tracks() const { return tracker_.tracks(); }
+  const std::vector<Track>& tracks() const;
 
   /// The last located frame: every detection that met the ground, the state and the camera's pose it was
   /// located with.
   const std::vector<LocatedDetection>& located() const { return located_; }
-  const VehicleState& vehicle() const { return vehicle_; }
-  const Rigid3d& enu_from_camera() const { return enu_from_camera_; }
+  const FrameView& view() const { return view_; }
+
+  /// What was learnt of the constant errors; nullopt where the method learns none.
+  std::optional<Calibration> calibration() const;
 
   /// The frame of all positions; set by the first position of the vehicle.
   const std::optional<LocalFrame>& local_frame() const { return state_.local_frame(); }
 
   const StateProvider& state() const { return state_; }
   const Projector& projector() const { return projector_; }
-  const PaperTracker& tracker() const { return tracker_; }
+  const TrackCounters& track_counters() const;
   const Counters& counters() const { return counters_; }
 
  private:
+  Duration latency() const;
+  Rigid3d calibrated_camera_pose(const VehicleState& vehicle) const;
   void select(const std::vector<Detection>& detections);
   void locate();
 
   GeolocatorConfig config_;
   StateProvider state_;
   Projector projector_;
-  PaperTracker tracker_;
-  VehicleState vehicle_{};
-  Rigid3d enu_from_camera_;
+  std::variant<PaperTracker, FullTracker> tracker_;
+  FrameView view_;
   std::vector<Detection> selected_;
   std::vector<LocatedDetection> located_;
   Counters counters_;

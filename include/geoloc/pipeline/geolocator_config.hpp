@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geoloc/calibration/full_tracker_config.hpp"
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
@@ -14,18 +15,20 @@ namespace geoloc {
 
 /// How objects are estimated from the fixes.
 enum class Method {
-  kPaper  ///< one Kalman filter an object, every error taken as noise (PaperTracker)
+  kPaper,  ///< one Kalman filter an object, every error taken as noise (PaperTracker)
+  kFull    ///< objects, the camera's calibration and the vehicle's drift together (FullTracker)
 };
 
 /// Everything a Geolocator can be told: the settings of each of its stages.
 struct GeolocatorConfig {
-  Method method = Method::kPaper;
+  Method method = Method::kFull;
   CameraOrientation camera_orientation = CameraOrientation::kComposed;
   int max_detections = 256;  ///< a frame; of more, the most confident are used
   CameraConfig camera;
   StateConfig state;
   ProjectorConfig projector;
   PaperTrackerConfig paper;
+  FullTrackerConfig full;
 
   /// Every fault at once, named by its JSON path; empty where a Geolocator can be built.
   std::vector<std::string> problems() const;

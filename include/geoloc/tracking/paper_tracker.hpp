@@ -9,6 +9,7 @@
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/assignment.hpp"
+#include "geoloc/tracking/frame_view.hpp"
 #include "geoloc/tracking/track.hpp"
 
 namespace geoloc {
@@ -27,35 +28,22 @@ struct PaperTrackerConfig {
   std::vector<std::string> problems() const;
 };
 
-/// One detection with its place on the ground.
-struct LocatedDetection {
-  Detection detection;
-  GroundFix fix;
-};
-
 /// Spatial refinement as published (paper, section 4): optimal assignment on Mahalanobis distances, one
 /// Kalman filter an object, penalties for objects that should be visible and are not, merging of confirmed
 /// neighbours.
 class PaperTracker {
  public:
-  struct Counters {
-    std::uint64_t created = 0;
-    std::uint64_t removed = 0;
-    std::uint64_t merged = 0;
-    std::uint64_t refused = 0;  ///< for want of room
-  };
-
   /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
   /// given.
   PaperTracker(const PaperTrackerConfig& config, int max_detections);
 
-  /// One frame: its detections in a canonical order (see Geolocator), the camera's pose, and its time.
+  /// One frame: its detections in a canonical order (see Geolocator), and from where it was seen.
   void update(const std::vector<LocatedDetection>& detections, const Projector& projector,
-              const Rigid3d& enu_from_camera, HostTime captured_at);
+              const FrameView& view);
 
   /// Tentative and confirmed, in order of their ids.
   const std::vector<Track>& tracks() const { return tracks_; }
-  const Counters& counters() const { return counters_; }
+  const TrackCounters& counters() const { return counters_; }
 
  private:
   void associate(const std::vector<LocatedDetection>& detections);
@@ -75,7 +63,7 @@ class PaperTracker {
   std::vector<int> track_of_detection_;  // index into tracks_, or kUnassigned
   std::vector<char> track_is_matched_;
   std::uint64_t next_id_ = 1;
-  Counters counters_;
+  TrackCounters counters_;
 };
 
 }  // namespace geoloc

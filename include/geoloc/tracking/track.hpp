@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "geoloc/geometry/time.hpp"
@@ -26,6 +27,25 @@ struct Track {
   int class_id() const { return class_votes.winner(); }
   /// Mean confidence of its detections.
   double confidence() const { return hits > 0 ? confidence_sum / hits : 0.0; }
+};
+
+/// Two tracks turned out to be one object: what `gone` knew besides its position goes to `kept`.
+inline void merge_records(Track& kept, const Track& gone) {
+  kept.hits += gone.hits;
+  kept.confidence_sum += gone.confidence_sum;
+  kept.class_votes.add(gone.class_votes);
+  kept.penalty = std::min(kept.penalty, gone.penalty);
+  kept.first_seen = std::min(kept.first_seen, gone.first_seen);
+  kept.last_seen = std::max(kept.last_seen, gone.last_seen);
+  if (gone.status == TrackStatus::kConfirmed) kept.status = TrackStatus::kConfirmed;
+}
+
+/// What became of tracks since the start.
+struct TrackCounters {
+  std::uint64_t created = 0;
+  std::uint64_t removed = 0;
+  std::uint64_t merged = 0;
+  std::uint64_t refused = 0;  ///< for want of room
 };
 
 }  // namespace geoloc

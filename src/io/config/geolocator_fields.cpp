@@ -38,16 +38,66 @@ void visit_fields(Visitor& v, PaperTrackerConfig& paper) {
   v.field("max_tracks", paper.max_tracks, "objects at most");
 }
 
+template <class Visitor>
+void visit_fields(Visitor& v, CalibrationPrior& prior) {
+  v.field("boresight_x_deg", prior.boresight_x_deg, "deg, camera turned about its own x (right) axis");
+  v.field("boresight_y_deg", prior.boresight_y_deg, "deg, about its y (down) axis");
+  v.field("boresight_z_deg", prior.boresight_z_deg, "deg, about its z (forward) axis");
+  v.field("latency_s", prior.latency_s, "s, a frame shows the world so long before its stamp");
+  v.field("height_m", prior.height_m, "m, camera higher above the ground than reported");
+  v.field("sigma_boresight_x_deg", prior.sigma_boresight_x_deg, "deg, 1-sigma; 0 freezes");
+  v.field("sigma_boresight_y_deg", prior.sigma_boresight_y_deg, "deg, 1-sigma; 0 freezes");
+  v.field("sigma_boresight_z_deg", prior.sigma_boresight_z_deg, "deg, 1-sigma; 0 freezes");
+  v.field("sigma_latency_s", prior.sigma_latency_s, "s, 1-sigma; 0 freezes");
+  v.field("sigma_height_m", prior.sigma_height_m, "m, 1-sigma; 0 freezes");
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, DriftConfig& drift) {
+  v.field("node_spacing_s", drift.node_spacing_s, "s between the nodes of the drift");
+  v.field("position_time_constant_s", drift.position_time_constant_s,
+          "s, how fast the position error wanders");
+  v.field("yaw_time_constant_s", drift.yaw_time_constant_s, "s, how fast the yaw error wanders");
+  v.field("sigma_yaw_deg", drift.sigma_yaw_deg, "deg, 1-sigma of the wandering");
+  v.field("max_nodes", drift.max_nodes, "older ones are frozen");
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, FullTrackerConfig& full) {
+  v.section("prior", full.prior);
+  v.section("drift", full.drift);
+  v.field("sigma_px", full.sigma_px, "px, 1-sigma of a box's centre, an axis");
+  v.field("sigma_attitude_deg", full.sigma_attitude_deg, "deg, 1-sigma from frame to frame");
+  v.field("horizontal_accuracy_m", full.horizontal_accuracy_m, "m, radial, where the autopilot reports none");
+  v.field("fast_share", full.fast_share, "of the accuracy, what changes from second to second");
+  v.field("fast_time_constant_s", full.fast_time_constant_s, "s, frames within it share their noise");
+  v.field("gate", full.gate, "squared Mahalanobis distance up to which a pair is accepted");
+  v.field("class_mismatch_cost", full.class_mismatch_cost, "added to it where the classes differ");
+  v.field("duplicate_share", full.duplicate_share, "of their size: detections nearer than this are one");
+  v.field("detection_probability", full.detection_probability, "before any was counted");
+  v.field("clutter_per_frame", full.clutter_per_frame, "false boxes");
+  v.field("birth_probability", full.birth_probability, "that a new detection is an object");
+  v.field("confirm_probability", full.confirm_probability, "existence that confirms an object");
+  v.field("delete_probability", full.delete_probability, "existence that removes it");
+  v.field("smallest_object_px", full.smallest_object_px, "px, smaller ones are not expected to be found");
+  v.field("merge_radius_m", full.merge_radius_m, "m, tracks that are nearer may be one object");
+  v.field("merge_gate", full.merge_gate, "squared Mahalanobis distance up to which they are");
+  v.field("max_tracks", full.max_tracks, "objects at most");
+  v.field("solve_period_s", full.solve_period_s, "s between solutions for calibration and drift");
+}
+
 /// All but the camera, which has a reader of its own.
 template <class Visitor>
 void visit_fields(Visitor& v, GeolocatorConfig& config) {
-  v.field("method", config.method, "paper: one Kalman filter an object");
+  v.field("method", config.method,
+          "full: objects, calibration and drift together; paper: one Kalman filter an object");
   v.field("camera_orientation", config.camera_orientation,
           "composed, or added_angles as in the paper's eq. 6 (wrong when the vehicle tilts)");
   v.field("max_detections", config.max_detections, "a frame; of more, the most confident");
   v.section("state", config.state);
   v.section("projector", config.projector);
   v.section("paper", config.paper);
+  v.section("full", config.full);
 }
 
 namespace io {
@@ -66,7 +116,8 @@ struct EnumNames<CameraOrientation> {
 
 template <>
 struct EnumNames<Method> {
-  static constexpr std::array<std::pair<Method, const char*>, 1> all{{{Method::kPaper, "paper"}}};
+  static constexpr std::array<std::pair<Method, const char*>, 2> all{
+      {{Method::kPaper, "paper"}, {Method::kFull, "full"}}};
 };
 
 namespace {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "geoloc/geometry/angles.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -36,7 +38,7 @@ ordered_json to_feature(const ObjectReport& object) {
 ordered_json to_counters(const Geolocator& geolocator) {
   const auto& frames = geolocator.counters();
   const auto telemetry = geolocator.state().counters();
-  const auto& tracks = geolocator.tracker().counters();
+  const auto& tracks = geolocator.track_counters();
   std::uint64_t without_fix = 0;
   for (const std::uint64_t count : frames.no_fix) without_fix += count;
   return {{"frames", frames.frames},
@@ -52,14 +54,33 @@ ordered_json to_counters(const Geolocator& geolocator) {
           {"tracks_merged", tracks.merged}};
 }
 
+/// null for a method that learns none.
+ordered_json to_calibration(const std::optional<Calibration>& calibration) {
+  if (!calibration) return nullptr;
+  using Index = CalibrationIndex;
+  ordered_json json;
+  const auto add = [&](const char* name, int index, double scale, int digits) {
+    json[name] = {{"value", decimals(calibration->mean[index] * scale, digits)},
+                  {"sigma", decimals(calibration->sigma(index) * scale, digits)}};
+  };
+  add("boresight_x_deg", Index::kBoresight, kDegPerRad, 4);
+  add("boresight_y_deg", Index::kBoresight + 1, kDegPerRad, 4);
+  add("boresight_z_deg", Index::kBoresight + 2, kDegPerRad, 4);
+  add("latency_s", Index::kLatency, 1.0, 5);
+  add("height_offset_m", Index::kHeight, 1.0, 4);
+  add("offset_east_m", Index::kOffset, 1.0, 4);
+  add("offset_north_m", Index::kOffset + 1, 1.0, 4);
+  return json;
+}
+
 }  // namespace
 
 std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const Geolocator& geolocator) {
   auto features = ordered_json::array();
   for (const ObjectReport& object : objects) features.push_back(to_feature(object));
   const ordered_json collection{{"type", "FeatureCollection"},
-                                {"method", "paper"},
-                                {"calibration", nullptr},
+                                {"method", geolocator.calibration() ? "full" : "paper"},
+                                {"calibration", to_calibration(geolocator.calibration())},
                                 {"counters", to_counters(geolocator)},
                                 {"features", std::move(features)}};
   // Class names come from models and may hold anything; bytes that are not UTF-8 are replaced.

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "geoloc/geometry/rigid3.hpp"
+
+namespace geoloc {
+
+/// The errors that are constant over a flight, as one vector: the order of everything that is indexed by
+/// them.
+struct CalibrationIndex {
+  static constexpr int kBoresight = 0;  ///< x, y, z of the camera [rad], camera axes
+  static constexpr int kLatency = 3;    ///< [s]
+  static constexpr int kHeight = 4;     ///< [m]
+  static constexpr int kOffset = 5;     ///< east, north [m]
+  static constexpr int kSize = 7;
+};
+
+using CalibrationVector = Eigen::Matrix<double, CalibrationIndex::kSize, 1>;
+using CalibrationMatrix = Eigen::Matrix<double, CalibrationIndex::kSize, CalibrationIndex::kSize>;
+
+/// What is known of the constant errors: true = reported, corrected by the mean.
+///   boresight: the camera is turned by this against its nominal mount, about its own axes
+///   latency:   a frame shows the world this much before its stamp
+///   height:    the camera is this much higher above the ground plane than reported
+///   offset:    the vehicle is this much east and north of where it reports to be
+struct Calibration {
+  CalibrationVector mean = CalibrationVector::Zero();
+  CalibrationMatrix covariance = CalibrationMatrix::Zero();
+
+  Eigen::Vector3d boresight_rad() const { return mean.segment<3>(CalibrationIndex::kBoresight); }
+  double latency_s() const { return mean[CalibrationIndex::kLatency]; }
+  double height_m() const { return mean[CalibrationIndex::kHeight]; }
+  Eigen::Vector2d offset_m() const { return mean.segment<2>(CalibrationIndex::kOffset); }
+  /// Turns and lifts a camera's nominal pose as estimated; latency is for whoever looks the pose up.
+  void apply_to(Rigid3d& enu_from_camera) const;
+
+  double sigma(int index) const { return std::sqrt(covariance(index, index)); }
+};
+
+/// What is believed before the first frame, 1-sigma. A component is frozen by a sigma of 0.
+struct CalibrationPrior {
+  double boresight_x_deg = 0.0, boresight_y_deg = 0.0, boresight_z_deg = 0.0;
+  double latency_s = 0.0;
+  double height_m = 0.0;
+  double sigma_boresight_x_deg = 1.5;  ///< hand-mounted cameras are off by a degree or two
+  double sigma_boresight_y_deg = 1.5;
+  double sigma_boresight_z_deg = 3.0;  ///< and the compass is worse than the mount
+  double sigma_latency_s = 0.3;        ///< exposure, encoder, link and clock together
+  double sigma_height_m = 0.7;         ///< barometer at take-off, and the ground against it
+
+  std::vector<std::string> problems() const;
+};
+
+}  // namespace geoloc

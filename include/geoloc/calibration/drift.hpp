@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "geoloc/geometry/time.hpp"
+
+namespace geoloc {
+
+/// Errors of the vehicle's state that wander: position as the receiver's solution does, yaw as the compass'
+/// does. They are described at nodes a few seconds apart, straight lines between, with a first-order
+/// Gauss-Markov prior from node to node.
+struct DriftConfig {
+  double node_spacing_s = 5.0;
+  double position_time_constant_s = 30.0;
+  double yaw_time_constant_s = 60.0;
+  double sigma_yaw_deg = 0.7;  ///< of the wandering, 1-sigma
+  int max_nodes = 36;          ///< older ones are frozen at their estimates
+
+  std::vector<std::string> problems() const;
+};
+
+/// A node's state: east, north [m], yaw [rad, clockwise]; corrections to what the vehicle reports.
+inline constexpr int kNodeSize = 3;
+using NodeVector = Eigen::Matrix<double, kNodeSize, 1>;
+using NodeMatrix = Eigen::Matrix<double, kNodeSize, kNodeSize>;
+
+/// The two nodes around a time, by their running numbers, and the weight of the second.
+struct NodeSpan {
+  std::uint32_t first;
+  double weight_of_second;
+};
+
+struct DriftNode {
+  VehicleTime time;
+  NodeVector mean = NodeVector::Zero();
+  /// Prior given the node before: mean = transition .* (its mean), information of the rest. Of the oldest
+  /// node kept, prior_mean stands for the node before.
+  NodeVector transition = NodeVector::Zero();
+  NodeVector information = NodeVector::Zero();
+  NodeVector prior_mean = NodeVector::Zero();
+};
+
+/// The nodes of the last minutes, numbered from 0 at the start of the flight.
+class DriftTimeline {
+ public:
+  explicit DriftTimeline(const DriftConfig& config);
+
+  /// Nodes around `time`, made if need be. sigma_position_m: of the wandering, an axis, as believed now.
+  /// Times run forward; where one runs back (the vehicle rebooted) the drift begins anew.
+  NodeSpan cover(VehicleTime time, double sigma_position_m);
+
+  std::uint32_t begin() const { return begin_; }
+  std::uint32_t end() const { return end_; }
+  int size() const { return static_cast<int>(end_ - begin_); }
+  bool is_full() const { return size() >= config_.max_nodes; }
+
+  const DriftNode& node(std::uint32_t number) const { return nodes_[number % nodes_.size()]; }
+  DriftNode& node(std::uint32_t number) { return nodes_[number % nodes_.size()]; }
+
+  /// Forgets the oldest node: its estimate becomes the fixed start of what follows.
+  void freeze_oldest();
+
+ private:
+  void append(VehicleTime time, double sigma_position_m, bool continues);
+
+  DriftConfig config_;
+  std::vector<DriftNode> nodes_;  // a ring
+  std::uint32_t begin_ = 0;
+  std::uint32_t end_ = 0;
+};
+
+}  // namespace geoloc

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geoloc/calibration/arrowhead.hpp"
+#include "geoloc/calibration/existence.hpp"
+#include "geoloc/calibration/full_tracker_config.hpp"
+#include "geoloc/calibration/linearize.hpp"
+#include "geoloc/calibration/neighbours.hpp"
+#include "geoloc/tracking/assignment.hpp"
+#include "geoloc/tracking/frame_view.hpp"
+#include "geoloc/tracking/track.hpp"
+
+namespace geoloc {
+
+/// Objects and calibration together (docs/method.md): every look at an object is information on the object,
+/// on the camera's calibration and on the drift of the vehicle's state.
+class FullTracker {
+ public:
+  /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
+  /// given.
+  FullTracker(const FullTrackerConfig& config, int max_detections);
+
+  /// One frame: its detections in a canonical order, located with calibration() applied to the view.
+  void update(const std::vector<LocatedDetection>& detections, const Projector& projector,
+              const FrameView& view);
+
+  /// Tentative and confirmed, in order of their ids.
+  const std::vector<Track>& tracks() const { return tracks_; }
+  const TrackCounters& counters() const { return counters_; }
+  const Calibration& calibration() const { return calibration_; }
+
+ private:
+  /// What the tracker knows of a track beyond its public face; same index as in tracks_.
+  struct Estimate {
+    std::size_t landmark = 0;  // place in landmarks_
+    Existence existence{0.5};
+    Neighbours neighbours;
+    double size_m = 0.0;                                               // apparent, mean
+    Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();          // A^-1
+    Landmark::CalibrationRow gain = Landmark::CalibrationRow::Zero();  // A^-1 B
+    double gain_spread = 0.0;  // trace of the position's covariance through the calibration
+  };
+
+  /// A detection of the present frame.
+  struct Look {
+    LandmarkObservation observation;
+    Eigen::Vector2d position;         // corrected by calibration and drift
+    Eigen::Matrix2d gate_covariance;  // of the position against a perfectly known object, one frame's noise
+    double spread = 0.0;              // trace of the position's covariance through the calibration
+    double clutter_density = 0.0;     // [1/m^2]
+    double size_m = 0.0;
+    const Detection* detection = nullptr;
+  };
+
+  void begin_frame(const FrameView& view);
+  void make_looks(const std::vector<LocatedDetection>& detections, const Projector& projector,
+                  const FrameView& view);
+  bool is_duplicate(const Look& look) const;
+  void associate();
+  void fill_costs(const Eigen::Vector2d& shift);
+  std::optional<Eigen::Matrix2d> innovation_covariance(const Look& look, const Estimate& estimate,
+                                                       const Eigen::Vector2d& residual) const;
+  Eigen::Vector2d common_shift() const;
+  void absorb_matched(HostTime captured_at);
+  void note_same_frame_evidence();
+  void weigh_missed(const Projector& projector, const FrameView& view);
+  void start_tentative(HostTime captured_at);
+  void remove_improbable();
+  void solve_if_due(VehicleTime now);
+  void merge_compatible();
+  void absorb(std::size_t track, const Look& look);
+  void refresh(std::size_t track);
+  void remove(std::size_t track);
+  double detection_probability(std::size_t track, const Projector& projector, const FrameView& view) const;
+  double sigma_axis_m() const;
+
+  FullTrackerConfig config_;
+  DriftTimeline drift_;
+  ArrowheadSolver solver_;
+  Calibration calibration_;
+
+  std::vector<Track> tracks_;
+  std::vector<Estimate> estimates_;
+  std::vector<Landmark> landmarks_;  // places are reused
+  std::vector<std::size_t> free_landmarks_;
+  std::vector<const Landmark*> all_landmarks_;  // scratch of solve
+
+  // The present frame.
+  std::vector<Look> looks_;
+  NodeVector drift_now_ = NodeVector::Zero();
+  NodeSpan span_{};
+  double noise_correlation_ = 1.0;  // frames that share their noise
+  double reported_accuracy_m_;
+  Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
+  AssignmentSolver assignment_;
+  Eigen::MatrixXd costs_;  // looks x candidates
+  std::vector<std::size_t> candidates_;
+  std::vector<int> track_of_look_;
+  std::vector<int> look_of_track_;
+  std::vector<double> median_scratch_;
+
+  std::optional<VehicleTime> previous_frame_;
+  std::optional<VehicleTime> solved_at_;
+  int frames_ = 0;
+  double expected_hits_;  // of confirmed objects in view, and how many there were: the detection probability
+  double opportunities_;
+  std::uint64_t next_id_ = 1;
+  TrackCounters counters_;
+};
+
+}  // namespace geoloc

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geoloc/calibration/calibration.hpp"
+#include "geoloc/calibration/drift.hpp"
+
+namespace geoloc {
+
+struct FullTrackerConfig {
+  CalibrationPrior prior;
+  DriftConfig drift;
+
+  // Noise of one look.
+  double sigma_px = 2.0;             ///< of a box's centre, an axis
+  double sigma_attitude_deg = 0.15;  ///< of roll, pitch and yaw from frame to frame
+  double horizontal_accuracy_m =
+      0.85;  ///< of the vehicle's position, where the autopilot reports none (radial, 1-sigma)
+  double fast_share = 0.25;           ///< of it, what changes from second to second
+  double fast_time_constant_s = 1.0;  ///< frames within it share their attitude and position noise
+
+  // Association.
+  double gate = 11.8;  ///< squared Mahalanobis distance; chi-square, 2 degrees of freedom, 99.7 %
+  double class_mismatch_cost = 4.0;  ///< added to it where the classes differ
+  double duplicate_share = 0.3;      ///< detections nearer than this share of their size are one
+
+  // Life cycle.
+  double detection_probability = 0.9;  ///< before any was counted
+  double clutter_per_frame = 0.1;      ///< false boxes
+  double birth_probability = 0.3;      ///< that a detection which fits nothing is an object
+  double confirm_probability = 0.999;
+  double delete_probability = 0.01;
+  double smallest_object_px = 6.0;  ///< smaller ones are not expected to be found
+  double merge_radius_m = 1.5;      ///< tracks nearer than this may be one object
+  double merge_gate = 9.2;          ///< squared Mahalanobis distance; 99 %
+  int max_tracks = 1000;
+
+  double solve_period_s = 1.0;  ///< of calibration, drift and covariances; every frame at first
+
+  std::vector<std::string> problems() const;
+};
+
+}  // namespace geoloc

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geoloc/calibration/landmark.hpp"
+#include "geoloc/tracking/frame_view.hpp"
+
+namespace geoloc {
+
+/// How a fix moves on the ground when calibration and drift change.
+struct FixJacobians {
+  Eigen::Matrix<double, 2, CalibrationIndex::kSize> calibration;  ///< see CalibrationIndex
+  Eigen::Matrix<double, 2, kNodeSize> node;                       ///< east, north, yaw
+};
+
+/// Analytic, at the fix and the view it was located with.
+FixJacobians jacobians_of(const GroundFix& fix, const FrameView& view, double height_above_ground_m);
+
+}  // namespace geoloc

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+namespace geoloc {
+
+/// Same-frame evidence of one track against those near it: two tracks that were matched to two detections of
+/// one frame are two objects. The few nearest in time are kept.
+class Neighbours {
+ public:
+  void seen_apart(std::uint64_t other) { entry(other).evidence += 1.0; }
+
+  /// One detection where both should have given one: weaker, since detectors miss.
+  void seen_as_one(std::uint64_t other) {
+    for (Entry& candidate : entries_) {
+      if (candidate.other == other) candidate.evidence = std::max(0.0, candidate.evidence - 0.25);
+    }
+  }
+
+  double apart(std::uint64_t other) const {
+    for (const Entry& candidate : entries_) {
+      if (candidate.other == other) return candidate.evidence;
+    }
+    return 0.0;
+  }
+
+  /// `gone` is now known as `kept`.
+  void rename(std::uint64_t gone, std::uint64_t kept) {
+    const double evidence = apart(gone);
+    if (evidence == 0.0) return;
+    entry(gone) = Entry{};
+    entry(kept).evidence += evidence;
+  }
+
+  void merge(const Neighbours& others) {
+    for (const Entry& theirs : others.entries_) {
+      if (theirs.evidence > 0.0) entry(theirs.other).evidence += theirs.evidence;
+    }
+  }
+
+ private:
+  struct Entry {
+    std::uint64_t other = 0;  // ids start at 1
+    double evidence = 0.0;
+  };
+
+  Entry& entry(std::uint64_t other) {
+    Entry* weakest = &entries_[0];
+    for (Entry& candidate : entries_) {
+      if (candidate.other == other) return candidate;
+      if (candidate.evidence < weakest->evidence) weakest = &candidate;
+    }
+    *weakest = {other, 0.0};
+    return *weakest;
+  }
+
+  std::array<Entry, 12> entries_{};
+};
+
+}  // namespace geoloc

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/calibration/drift.hpp"
+
+#include <cmath>
+
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/problems.hpp"
+
+namespace geoloc {
+
+std::vector<std::string> DriftConfig::problems() const {
+  Problems found;
+  found.require(node_spacing_s >= 0.5 && node_spacing_s <= 600.0,
+                "full.drift.node_spacing_s must lie in [0.5, 600]");
+  found.require(position_time_constant_s > 0.0 && std::isfinite(position_time_constant_s),
+                "full.drift.position_time_constant_s must be > 0");
+  found.require(yaw_time_constant_s > 0.0 && std::isfinite(yaw_time_constant_s),
+                "full.drift.yaw_time_constant_s must be > 0");
+  found.require(sigma_yaw_deg > 0.0 && sigma_yaw_deg <= 30.0, "full.drift.sigma_yaw_deg must lie in (0, 30]");
+  found.require(max_nodes >= 4 && max_nodes <= 500, "full.drift.max_nodes must lie in [4, 500]");
+  return found.take();
+}
+
+DriftTimeline::DriftTimeline(const DriftConfig& config)
+    : config_(config), nodes_(static_cast<std::size_t>(config.max_nodes) + 2) {}
+
+NodeSpan DriftTimeline::cover(VehicleTime time, double sigma_position_m) {
+  const Duration spacing = from_seconds(config_.node_spacing_s);
+  const bool continues = size() >= 2 && time >= node(end_ - 2).time;
+  if (!continues) {
+    append(time, sigma_position_m, false);
+    append(time + spacing, sigma_position_m, true);
+  } else if (time > node(end_ - 1).time) {
+    // After a pause the nodes go on from here: empty ones in between would say nothing.
+    if (time - node(end_ - 1).time > spacing) append(time, sigma_position_m, true);
+    append(node(end_ - 1).time + spacing, sigma_position_m, true);
+  }
+  const std::uint32_t first = end_ - 2;
+  const Duration length = node(first + 1).time - node(first).time;
+  return {first, seconds(time - node(first).time) / seconds(length)};
+}
+
+void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool continues) {
+  DriftNode next;
+  next.time = time;
+  const double sigma_yaw = config_.sigma_yaw_deg * kRadPerDeg;
+  const NodeVector variance(sigma_position_m * sigma_position_m, sigma_position_m * sigma_position_m,
+                            sigma_yaw * sigma_yaw);
+  if (continues) {
+    const double pause_s = seconds(time - node(end_ - 1).time);
+    const double position = std::exp(-pause_s / config_.position_time_constant_s);
+    const double yaw = std::exp(-pause_s / config_.yaw_time_constant_s);
+    next.transition = NodeVector(position, position, yaw);
+    next.mean = next.transition.cwiseProduct(node(end_ - 1).mean);
+  }
+  next.information = (variance.array() * (1.0 - next.transition.array().square())).inverse();
+  nodes_[end_ % nodes_.size()] = next;
+  ++end_;
+}
+
+void DriftTimeline::freeze_oldest() {
+  const DriftNode& oldest = node(begin_);
+  DriftNode& heir = node(begin_ + 1);
+  heir.prior_mean = heir.transition.cwiseProduct(oldest.mean);
+  heir.transition.setZero();
+  ++begin_;
+}
+
+}  // namespace geoloc
