@@ -11,7 +11,6 @@
 #include "app/recorder.hpp"
 #include "app/stop_signal.hpp"
 #include "common/command_line.hpp"
-#include "geoloc/io/recording/recording_reader.hpp"
 
 namespace {
 
@@ -24,53 +23,47 @@ constexpr auto kOutputPeriod = std::chrono::seconds{5};
 struct Program {
   explicit Program(const LiveOptions& given)
       : options(given),
-        config(load_config(given)),
-        truth(given.truth_file.empty() ? std::vector<io::TrueTarget>{} : io::read_truth(given.truth_file)),
-        detector(make_detector(given, config.detection)),
-        socket(io::parse_udp_endpoint(given.udp)),
+        inputs(open_inputs(given, clock)),
         recorder(given.record_folder),
-        session(config.estimation,
+        session(inputs.config.estimation,
                 [this](HostTime received_at, const std::uint8_t* frame, std::size_t size) {
                   recorder.write(
                       [&](io::RecordingWriter& writer) { writer.add_telemetry(received_at, frame, size); });
-                }),
-        video(make_video_source(given, config.video, clock)) {
+                }) {
     recorder.write([this](io::RecordingWriter& writer) {
-      writer.write_camera(config.estimation.geolocator.camera);
-      writer.write_config(live_to_json(config).dump(2));
-      writer.write_class_names(detector->class_names());
-      if (!truth.empty()) writer.write_truth(truth);
+      writer.write_camera(inputs.config.estimation.geolocator.camera);
+      writer.write_config(live_to_json(inputs.config).dump(2));
+      writer.write_class_names(inputs.detector->class_names());
+      if (!inputs.truth.empty()) writer.write_truth(inputs.truth);
     });
   }
 
   void write_results() const {
     const std::string source = options.rtsp_url.empty() ? options.video_file : "live run";
-    write_outputs(options.outputs, session, detector->class_names(), truth, "geoloc: " + source);
+    write_outputs(options.outputs, session, inputs.detector->class_names(), inputs.truth,
+                  "geoloc: " + source);
   }
 
   LiveOptions options;
-  LiveConfig config;
-  std::vector<io::TrueTarget> truth;
   io::HostClock clock;
-  std::unique_ptr<io::Detector> detector;
-  io::UdpSocket socket;
+  LiveInputs inputs;
   Recorder recorder;
   Session session;
-  std::unique_ptr<io::VideoSource> video;
 };
 
 /// Until the video ends or the user has enough. Results are written now and then, so that a power cut costs
 /// seconds.
 void run_until_stopped(Program& program, Console& console) {
   const StopSignal stop;
-  DetectionWorker worker(*program.video, *program.detector,
-                         program.config.estimation.geolocator.camera.intrinsics, program.clock);
-  LiveRun run(program.session, program.socket, worker, program.recorder, program.clock);
+  const LiveInputs& inputs = program.inputs;
+  DetectionWorker worker(*inputs.video, *inputs.detector,
+                         inputs.config.estimation.geolocator.camera.intrinsics, program.clock);
+  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.clock);
   HostTime written_at = program.clock.now();
   while (!stop.is_requested() && !run.has_ended()) {
     run.step();
     const HostTime now = program.clock.now();
-    console.update(now, program.session, *program.video, worker, run);
+    console.update(now, program.session, *inputs.video, worker, run);
     if (now - written_at < kOutputPeriod) continue;
     written_at = now;
     try {
@@ -105,12 +98,12 @@ int main(int argc, char** argv) {
   run_until_stopped(*program, console);
 
   program->recorder.finish();
-  console.say(summarize(program->session, program->truth));
+  console.say(summarize(program->session, program->inputs.truth));
   const auto failed = guard("geoloc_app", kFailed, [&] {
     program->write_results();
     if (options.outputs.objects.empty()) {
       const auto objects =
-          io::report_objects(program->session.geolocator(), program->detector->class_names());
+          io::report_objects(program->session.geolocator(), program->inputs.detector->class_names());
       std::fputs(objects_to_table(objects).c_str(), stdout);
     }
   });

@@ -10,6 +10,8 @@
 #include "common/run_outputs.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/mavlink/udp_socket.hpp"
+#include "geoloc/io/recording/recording.hpp"
 #include "geoloc/io/video/video_source.hpp"
 
 namespace geoloc::apps {
@@ -35,11 +37,17 @@ void add_live_options(CLI::App& program, LiveOptions& options);
 /// The configuration file under the options. Throws std::runtime_error listing every fault.
 LiveConfig load_config(const LiveOptions& options);
 
-/// Throws std::runtime_error or std::invalid_argument naming the model and the remedy.
-std::unique_ptr<io::Detector> make_detector(const LiveOptions& options, const io::DetectionConfig& config);
+/// What a run is made of.
+struct LiveInputs {
+  LiveConfig config;
+  std::vector<io::TrueTarget> truth;
+  std::unique_ptr<io::Detector> detector;
+  std::unique_ptr<io::UdpSocket> socket;
+  std::unique_ptr<io::VideoSource> video;  ///< refers to the clock
+};
 
-/// Throws where neither or both of --rtsp and --video are given, or the file cannot be played.
-std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, const io::VideoConfig& config,
-                                                   const io::HostClock& clock);
+/// Loads, binds and opens all of it. Throws std::runtime_error that lists everything that is wrong with
+/// files, model, port and stream, each with its name and remedy.
+LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock);
 
 }  // namespace geoloc::apps

@@ -24,7 +24,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add(kFaults, "--link-jitter-s", options.link.jitter_s, "Mean of the exponential extra delay, s")
       ->capture_default_str();
   add(kFaults, "--reboot-at", options.reboot_at_s,
-      "The autopilot reboots so long into the flight, s [never]");
+      "The autopilot reboots so long after the start, s of real time [never]");
 }
 
 }  // namespace geoloc::sim
