@@ -8,7 +8,6 @@
 #include <exception>
 #include <string_view>
 
-#include "geoloc/io/video/stream_url.hpp"
 #include "gst_pipeline.hpp"
 #include "rtcp_report.hpp"
 
@@ -30,6 +29,11 @@ namespace {
 GstCaps* rtp_timestamp_caps() {
   static GstCaps* const caps = gst_caps_new_empty_simple("timestamp/x-geoloc-rtp");
   return caps;
+}
+
+std::optional<std::uint32_t> rtp_timestamp(GstBuffer* buffer) {
+  const auto* meta = gst_buffer_get_reference_timestamp_meta(buffer, rtp_timestamp_caps());
+  return meta != nullptr ? std::optional{static_cast<std::uint32_t>(meta->timestamp)} : std::nullopt;
 }
 
 RtspSession* session(gpointer self) {
@@ -94,7 +98,7 @@ RtspSession::RtspSession(const std::string& url, const VideoConfig& config, cons
       clock_(clock),
       exchange_(exchange),
       alive_at_(clock.now()),
-      rtp_clock_(from_seconds(config.latency_s)),
+      timing_(from_seconds(config.latency_s)),
       pipeline_(gst_pipeline_new(nullptr)) {
   GstElement* source = add_rtspsrc(pipeline_.get(), url, config);
   g_signal_connect(source, "new-manager", G_CALLBACK(on_manager), this);
@@ -128,10 +132,7 @@ void RtspSession::on_jitter_buffer(GstElement*, GstElement* buffer, guint, guint
 }
 
 void RtspSession::on_report(GstElement*, GstStructure* sync, gpointer self) {
-  const auto report = sender_report(sync);
-  if (!report) return;
-  const std::lock_guard lock{session(self)->mutex_};
-  session(self)->rtp_clock_.observe(*report);
+  if (const auto report = sender_report(sync)) session(self)->timing_.observe(*report);
 }
 
 /// The first stream that can be decoded: cameras list the main one first.
@@ -153,10 +154,7 @@ void RtspSession::build_decoder(GstPad* stream) {
   const Format* format = caps ? format_for(caps.get()) : nullptr;
   const GstObjectPtr<GstPad> converter_pad{gst_element_get_static_pad(converter_, "sink")};
   if (format == nullptr || gst_pad_is_linked(converter_pad.get()) != FALSE) return;
-  {
-    const std::lock_guard lock{mutex_};
-    codec_ = format->codec;
-  }
+  codec_ = format->codec;
   GstElement* depayloader = add_element(pipeline_.get(), format->depayloader);
   GstElement* parser = add_element(pipeline_.get(), format->parser);
   GstElement* decoder = add_element(pipeline_.get(), format->decoder);
@@ -195,19 +193,12 @@ GstPadProbeReturn RtspSession::on_packets(GstPad*, GstPadProbeInfo* info, gpoint
 void RtspSession::observe_packet(GstBuffer** packet) {
   GstRTPBuffer rtp = GST_RTP_BUFFER_INIT;
   if (gst_rtp_buffer_map(*packet, GST_MAP_READ, &rtp) == FALSE) return;
-  RtpPacket seen{gst_rtp_buffer_get_seq(&rtp), gst_rtp_buffer_get_timestamp(&rtp), false};
-  std::uint64_t newly_lost = 0;
-  {
-    const std::lock_guard lock{mutex_};
-    seen.begins_random_access_picture = begins_random_access_picture(
-        codec_, static_cast<const std::uint8_t*>(gst_rtp_buffer_get_payload(&rtp)),
-        gst_rtp_buffer_get_payload_len(&rtp));
-    const std::uint64_t lost_before = ledger_.lost_packets();
-    ledger_.observe(seen, clock_.now());
-    newly_lost = ledger_.lost_packets() - lost_before;
-  }
+  const auto* payload = static_cast<const std::uint8_t*>(gst_rtp_buffer_get_payload(&rtp));
+  const RtpPacket seen{gst_rtp_buffer_get_seq(&rtp), gst_rtp_buffer_get_timestamp(&rtp),
+                       begins_random_access_picture(codec_, payload, gst_rtp_buffer_get_payload_len(&rtp))};
   gst_rtp_buffer_unmap(&rtp);
-  if (newly_lost > 0) exchange_.add_lost_packets(newly_lost);
+  const std::uint64_t lost = timing_.observe(seen, clock_.now());
+  if (lost > 0) exchange_.add_lost_packets(lost);
   *packet = gst_buffer_make_writable(*packet);
   gst_buffer_add_reference_timestamp_meta(*packet, rtp_timestamp_caps(), seen.timestamp, GST_CLOCK_TIME_NONE);
 }
@@ -251,29 +242,13 @@ void RtspSession::deliver(GstSample* sample) {
   const HostTime now = clock_.now();
   auto bgr = copy_bgr(sample, config_.max_megapixels);
   if (!bgr) return exchange_.count_refused();
-  VideoFrame frame = stamp(gst_sample_get_buffer(sample), now);
+  GstBuffer* buffer = gst_sample_get_buffer(sample);
+  VideoFrame frame = timing_.stamp(rtp_timestamp(buffer), now);
+  if (GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED)) frame.damaged = true;
   frame.bgr = std::move(*bgr);
   alive_at_ = now;
   has_delivered_ = true;
   exchange_.offer(std::move(frame));
-}
-
-VideoFrame RtspSession::stamp(GstBuffer* buffer, HostTime now) {
-  const auto* meta = gst_buffer_get_reference_timestamp_meta(buffer, rtp_timestamp_caps());
-  const std::lock_guard lock{mutex_};
-  const auto entry =
-      meta != nullptr ? ledger_.find(static_cast<std::uint32_t>(meta->timestamp)) : std::nullopt;
-  VideoFrame frame;
-  frame.damaged = GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED) || (entry && entry->damaged);
-  frame.received_at = entry ? entry->received_at : now;
-  if (entry) {
-    const auto capture = rtp_clock_.capture_time(entry->timestamp, entry->received_at);
-    frame.captured_at = capture.captured_at;
-    frame.time_quality = capture.quality;
-  } else {
-    frame.captured_at = now - from_seconds(config_.latency_s);
-  }
-  return frame;
 }
 
 }  // namespace geoloc::io

@@ -4,16 +4,14 @@
 #include <gst/app/gstappsink.h>
 
 #include <atomic>
-#include <mutex>
 #include <string>
 
 #include "geoloc/io/host_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
-#include "geoloc/io/video/frame_ledger.hpp"
-#include "geoloc/io/video/rtp_clock.hpp"
 #include "geoloc/io/video/rtp_payload.hpp"
 #include "geoloc/io/video/video_config.hpp"
 #include "gst_handles.hpp"
+#include "stream_timing.hpp"
 
 namespace geoloc::io {
 
@@ -52,7 +50,6 @@ class RtspSession {
   void build_decoder(GstPad* stream);
   void observe_packet(GstBuffer** packet);
   void deliver(GstSample* sample);
-  VideoFrame stamp(GstBuffer* buffer, HostTime now);
 
   const VideoConfig& config_;
   const HostClock& clock_;
@@ -62,10 +59,8 @@ class RtspSession {
   std::atomic<bool> is_too_large_{false};
   std::atomic<bool> has_delivered_{false};
   std::atomic<HostTime> alive_at_;  // of the last frame, or of the beginning
-  std::mutex mutex_;
-  VideoCodec codec_ = VideoCodec::kH264;  // guarded by mutex_, as are the next two
-  FrameLedger ledger_;
-  RtpClock rtp_clock_;
+  std::atomic<VideoCodec> codec_{VideoCodec::kH264};
+  StreamTiming timing_;
 
   GstElement* converter_ = nullptr;  // owned by the pipeline
   GstPipelinePtr pipeline_;          // last: its threads end before what they use

@@ -67,7 +67,7 @@ class RtspSource::Impl {
     } catch (const std::exception& error) {
       why = error.what();
     }
-    exchange_.report_error(without_credentials_of(url_, why));
+    exchange_.report_error(without_credentials(url_) + ": " + without_credentials_of(url_, why));
     exchange_.set_state(VideoState::kRetrying);
     return has_delivered;
   }

@@ -2,11 +2,11 @@
 #include "geoloc/io/detection/opencv_detector.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "support/temporary_folder.hpp"
 
 // The networks are described in tools/fixtures/make_onnx_fixtures.py: what they find is known in closed form.
 namespace geoloc::io {
@@ -103,14 +103,12 @@ TEST(OpencvDetector, TakesItsClassNamesFromTheModelOrAFile) {
   EXPECT_EQ((OpencvDetector{{fixture("plain"), {}}, {}}.class_names()), (Names{"red", "driver's blue"}));
   EXPECT_EQ((OpencvDetector{{fixture("unnamed"), {}}, {}}.class_names()), (Names{"class 0", "class 1"}));
 
-  const auto file =
-      std::filesystem::temp_directory_path() / ("geoloc_class_names_" + std::to_string(::getpid()));
-  std::ofstream{file} << "rouge\r\nbleu\n\n";
-  EXPECT_EQ((OpencvDetector{{fixture("plain"), file}, {}}.class_names()), (Names{"rouge", "bleu"}));
-  std::ofstream{file} << "one name\n";
-  EXPECT_NE(fault_of(fixture("plain"), file).find("has 1 names"), std::string::npos);
-  std::filesystem::remove(file);
-  EXPECT_NE(fault_of(fixture("plain"), file).find("cannot be read"), std::string::npos);
+  const testing::TemporaryFolder folder;
+  const auto two_names = folder.write("two.txt", "rouge\r\nbleu\n\n");
+  EXPECT_EQ((OpencvDetector{{fixture("plain"), two_names}, {}}.class_names()), (Names{"rouge", "bleu"}));
+  EXPECT_NE(fault_of(fixture("plain"), folder.write("one.txt", "name\n")).find("has 1 names"),
+            std::string::npos);
+  EXPECT_NE(fault_of(fixture("plain"), folder.path() / "none.txt").find("cannot be read"), std::string::npos);
 }
 
 struct BadModel {
@@ -140,15 +138,13 @@ INSTANTIATE_TEST_SUITE_P(Fixtures, EveryBadModel,
                          [](const auto& instance) { return std::string{instance.param.name}; });
 
 TEST(OpencvDetector, RefusesFilesThatAreNoModels) {
-  const auto file =
-      std::filesystem::temp_directory_path() / ("geoloc_no_model_" + std::to_string(::getpid()));
+  const testing::TemporaryFolder folder;
   for (const std::string& content :
        {std::string{}, std::string{"not a model\n"}, std::string(5000, '\xff')}) {
-    std::ofstream{file, std::ios::binary} << content;
+    const auto file = folder.write("model.onnx", content);
     EXPECT_NE(fault_of(file).find(file.string()), std::string::npos);
   }
-  std::filesystem::remove(file);
-  EXPECT_NE(fault_of(std::filesystem::temp_directory_path()).find("cannot be read"), std::string::npos);
+  EXPECT_NE(fault_of(folder.path()).find("cannot be read"), std::string::npos);
 }
 
 TEST(OpencvDetector, RefusesABadConfiguration) {

@@ -3,13 +3,13 @@
 
 #include <gst/gst.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string>
+
+#include "support/temporary_folder.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -21,20 +21,12 @@ constexpr Duration kPatience = std::chrono::seconds{40};
 constexpr int kFrames = 30;
 constexpr Duration kPeriod = milliseconds{50};
 
-/// A folder that goes with the test.
 class FileSourceTest : public ::testing::Test {
  protected:
-  FileSourceTest()
-      : folder_(std::filesystem::temp_directory_path() /
-                ("geoloc_file_source_" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder_);
-  }
-  ~FileSourceTest() override { std::filesystem::remove_all(folder_); }
-
   /// Encodes what the GStreamer description makes.
   std::filesystem::path encode(const std::string& name, const std::string& elements) const {
     gst_init(nullptr, nullptr);
-    const auto file = folder_ / name;
+    const auto file = folder_.path() / name;
     const std::string description = elements + " ! filesink location=" + file.string();
     GstElement* pipeline = gst_parse_launch(description.c_str(), nullptr);
     gst_element_set_state(pipeline, GST_STATE_PLAYING);
@@ -56,12 +48,7 @@ class FileSourceTest : public ::testing::Test {
                             muxer);
   }
 
-  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-    std::ofstream{folder_ / name, std::ios::binary} << bytes;
-    return folder_ / name;
-  }
-
-  const std::filesystem::path folder_;
+  const testing::TemporaryFolder folder_;
   const HostClock clock_;
 };
 
@@ -120,9 +107,9 @@ TEST_F(FileSourceTest, CanBeLeftBeforeItsEnd) {
 
 TEST_F(FileSourceTest, RefusesWhatIsNoVideoNamingTheFile) {
   const auto sound = encode("sound.mkv", "audiotestsrc num-buffers=20 ! vorbisenc ! matroskamux");
-  for (const auto& file :
-       {folder_ / "missing.mkv", write("empty.mkv", ""), write("text.mp4", "not a video\n"),
-        write("noise.mkv", std::string(5000, '\x55')), sound, folder_}) {
+  for (const auto& file : {folder_.path() / "missing.mkv", folder_.write("empty.mkv", ""),
+                           folder_.write("text.mp4", "not a video\n"),
+                           folder_.write("noise.mkv", std::string(5000, '\x55')), sound, folder_.path()}) {
     try {
       const FileSource source{file, {}, {}, clock_};
       ADD_FAILURE() << file;

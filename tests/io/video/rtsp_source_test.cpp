@@ -152,7 +152,7 @@ TEST(RtspSource, AFrozenServerIsLeftAndTriedAnew) {
   server.freeze(true);
   ASSERT_TRUE(wait_for_status(
       source, [](const VideoStatus& status) { return status.state == VideoState::kRetrying; }));
-  EXPECT_EQ(source.status().last_error, "no frame for 0.5 s");
+  EXPECT_EQ(source.status().last_error, server.url() + ": no frame for 0.5 s");
 
   server.freeze(false);
   const HostTime thawed_at = host_clock().now();

@@ -21,8 +21,8 @@ const char* to_string(VideoState state);
 
 struct VideoStatus {
   VideoState state = VideoState::kConnecting;
-  std::string last_error;  ///< why the last attempt ended; stays after recovery; never holds credentials
-  double frames_per_second = 0.0;                    ///< decoded, mean over the last two seconds
+  std::string last_error;          ///< why the last attempt ended, without credentials; stays after recovery
+  double frames_per_second = 0.0;  ///< decoded, mean over the last two seconds
   TimeQuality time_quality = TimeQuality::kArrival;  ///< of the newest frame
   std::uint64_t frames = 0;                          ///< decoded
   std::uint64_t dropped = 0;                         ///< replaced by a newer one before anybody took them

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <optional>
+
+#include "geoloc/io/video/frame_ledger.hpp"
+#include "geoloc/io/video/rtp_clock.hpp"
+#include "geoloc/io/video/video_frame.hpp"
+
+namespace geoloc::io {
+
+/// What the packets and the reports of a stream tell about its frames. They come in different threads, so
+/// every call is safe from any.
+class StreamTiming {
+ public:
+  /// `latency`: from exposure to arrival, for frames whose capture time the stream does not tell.
+  explicit StreamTiming(Duration latency) : latency_(latency), clock_(latency) {}
+
+  /// Returns how many packets were lost ahead of this one.
+  std::uint64_t observe(const RtpPacket& packet, HostTime received_at);
+  void observe(const SenderReport& report);
+
+  /// A frame without its picture. Its RTP timestamp may have got lost in the decoder.
+  VideoFrame stamp(std::optional<std::uint32_t> rtp_timestamp, HostTime decoded_at);
+
+ private:
+  std::mutex mutex_;
+  const Duration latency_;
+  FrameLedger ledger_;
+  RtpClock clock_;
+};
+
+}  // namespace geoloc::io
