@@ -42,24 +42,6 @@ HostTime next_after(HostTime due, Duration period, HostTime now) {
   return due + period > now ? due + period : now + period;
 }
 
-/// What ArduPilot sends in a stream, as far as flights hold it.
-bool is_in_data_stream(std::uint32_t message_id, std::uint8_t stream) {
-  switch (message_id) {
-    case MAVLINK_MSG_ID_GPS_RAW_INT:
-      return stream == MAV_DATA_STREAM_EXTENDED_STATUS;
-    case MAVLINK_MSG_ID_GLOBAL_POSITION_INT:
-    case MAVLINK_MSG_ID_LOCAL_POSITION_NED:
-      return stream == MAV_DATA_STREAM_POSITION;
-    case MAVLINK_MSG_ID_ATTITUDE:
-      return stream == MAV_DATA_STREAM_EXTRA1;
-    case MAVLINK_MSG_ID_SYSTEM_TIME:
-    case MAVLINK_MSG_ID_EKF_STATUS_REPORT:
-      return stream == MAV_DATA_STREAM_EXTRA3;
-    default:
-      return false;
-  }
-}
-
 }  // namespace
 
 MavlinkVehicle::MavlinkVehicle(const Flight& flight, HostTime booted_at)
@@ -161,7 +143,7 @@ void MavlinkVehicle::set_data_stream(const io::Frame& frame, HostTime now, const
   const auto request = fields_of<mavlink_request_data_stream_t>(frame);
   if (!is_for_us(request.target_system, request.target_component)) return;
   for (Stream& stream : streams_) {
-    const bool is_meant = is_in_data_stream(stream.recorded.message_id, request.req_stream_id) ||
+    const bool is_meant = data_stream_of(stream.recorded.message_id) == request.req_stream_id ||
                           request.req_stream_id == MAV_DATA_STREAM_ALL;
     if (!is_meant) continue;
     if (request.start_stop == 0 || request.req_message_rate == 0) {

@@ -138,6 +138,23 @@ std::vector<RecordedStream> recorded_streams(const Flight& flight) {
   return result;
 }
 
+std::optional<std::uint8_t> data_stream_of(std::uint32_t message_id) {
+  switch (message_id) {
+    case MAVLINK_MSG_ID_GPS_RAW_INT:
+      return MAV_DATA_STREAM_EXTENDED_STATUS;
+    case MAVLINK_MSG_ID_GLOBAL_POSITION_INT:
+    case MAVLINK_MSG_ID_LOCAL_POSITION_NED:
+      return MAV_DATA_STREAM_POSITION;
+    case MAVLINK_MSG_ID_ATTITUDE:
+      return MAV_DATA_STREAM_EXTRA1;
+    case MAVLINK_MSG_ID_SYSTEM_TIME:
+    case MAVLINK_MSG_ID_EKF_STATUS_REPORT:
+      return MAV_DATA_STREAM_EXTRA3;
+    default:
+      return std::nullopt;
+  }
+}
+
 Payload retell(const FrameView& recorded, const Retelling& how) {
   Payload payload{};
   std::copy_n(recorded.payload, std::min(recorded.payload_size, payload.size()), payload.begin());

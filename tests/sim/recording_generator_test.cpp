@@ -77,7 +77,7 @@ TEST_P(OnEveryPath, BoxesWithoutErrorsLieOnTheirTargetsAndEveryTargetIsSeen) {
   settings.run.camera.intrinsics.distortion = {-0.05, 0.01, 0.001, -0.0005, 0.0};
   const CameraModel camera(settings.run.camera.intrinsics);
   const Rigid3d body_from_camera = geoloc::body_from_camera(settings.run.camera.mount);
-  const auto targets = make_scenario(1, 0);
+  const auto targets = make_scenario(settings.run.scenario, settings.run.seed);
   std::vector<int> looks(targets.size(), 0);
   for (const io::RecordedFrame& frame : frames_of(flight, settings)) {
     const VehicleTime time{frame.captured_at - flight.booted_at};
@@ -209,7 +209,7 @@ TEST_F(WrittenRecording, IsByteIdenticalForEqualArgumentsAndOtherForAnotherSeed)
   write_recording(root_ / "a", flight, settings);
   write_recording(root_ / "b", flight, settings);
   EXPECT_EQ(files_in(root_ / "a"), files_in(root_ / "b"));
-  settings.run.seed = 1;
+  ++settings.run.seed;
   write_recording(root_ / "c", flight, settings);
   EXPECT_NE(files_in(root_ / "a")["frames.jsonl"], files_in(root_ / "c")["frames.jsonl"]);
 }

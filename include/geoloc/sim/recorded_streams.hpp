@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geoloc/sim/flight.hpp"
@@ -28,6 +29,9 @@ struct RecordedStream {
 /// What the autopilot itself said (its system, component 1), apart from answers and texts. The flight must
 /// outlive it.
 std::vector<RecordedStream> recorded_streams(const Flight& flight);
+
+/// MAV_DATA_STREAM in which ArduPilot sends a message; nullopt for those of none.
+std::optional<std::uint8_t> data_stream_of(std::uint32_t message_id);
 
 /// A payload as long as MAVLink allows; what MAVLink 2 cut off is zero.
 using Payload = std::array<std::uint8_t, 255>;
