@@ -17,6 +17,7 @@ namespace {
 constexpr std::chrono::milliseconds kStep{2};
 
 io::UdpPeer resolve(const io::UdpEndpoint& endpoint) {
+  if (endpoint.port == 0) throw std::invalid_argument("--udp: port 0 cannot be sent to");
   addrinfo wanted{};
   wanted.ai_socktype = SOCK_DGRAM;
   addrinfo* found = nullptr;

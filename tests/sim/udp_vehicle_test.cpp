@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <thread>
 
 #include "geoloc/io/mavlink/vehicle_link.hpp"
@@ -47,13 +48,15 @@ TEST(UdpVehicle, GivesGeolocsOwnReceiverWhatItAsksForOverARealSocket) {
   thread.join();
 }
 
-TEST(UdpVehicle, SaysWhichHostIsUnknown) {
+TEST(UdpVehicle, RefusesAPeerThatCannotBeReached) {
   const Flight flight = load("stock_path6");
   const FlightClock flight_clock(flight.truth.survey(), 1.0);
   const io::HostClock host_clock;
   UdpVehicleSettings settings;
   settings.peer = {"no such host", 14550};
   EXPECT_THROW(UdpVehicle(flight, settings, flight_clock, host_clock), std::runtime_error);
+  settings.peer = {"127.0.0.1", 0};
+  EXPECT_THROW(UdpVehicle(flight, settings, flight_clock, host_clock), std::invalid_argument);
 }
 
 }  // namespace

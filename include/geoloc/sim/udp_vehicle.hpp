@@ -23,7 +23,7 @@ struct UdpVehicleSettings {
 /// A MavlinkVehicle on a UDP socket. run() blocks its thread; the rest may be called from others.
 class UdpVehicle {
  public:
-  /// The flight and the clocks must outlive it. Throws std::invalid_argument for bad faults,
+  /// The flight and the clocks must outlive it. Throws std::invalid_argument for bad faults and for port 0,
   /// std::runtime_error where the peer's name is unknown or there is no socket.
   UdpVehicle(const Flight& flight, const UdpVehicleSettings& settings, const FlightClock& flight_clock,
              const io::HostClock& host_clock);
