@@ -84,14 +84,16 @@ int main(int argc, char** argv) {
 
   std::unique_ptr<Program> program;
   const auto unusable = guard("geoloc_app", kUnusable, [&] {
-    if (options.print_config) {
+    if (options.print_settings) {
+      std::fputs(live_settings_table().c_str(), stdout);
+    } else if (options.print_config) {
       std::puts(live_to_json(load_config(options)).dump(2).c_str());
     } else {
       program = std::make_unique<Program>(options);
     }
   });
   if (unusable) return *unusable;
-  if (options.print_config) return kDone;
+  if (!program) return kDone;
 
   Console console(program->clock.now());
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");

@@ -47,6 +47,17 @@ nlohmann::ordered_json live_to_json(const LiveConfig& config) {
   return json;
 }
 
+std::string live_settings_table() {
+  auto lines = estimation_field_lines();
+  list_section<io::VideoConfig>("video", lines);
+  list_section<io::DetectionConfig>("detection", lines);
+  std::string table = "| setting | default | unit and meaning |\n|---|---|---|\n";
+  for (const io::FieldLine& line : lines) {
+    table += "| `" + line.path + "` | `" + line.default_value + "` | " + line.meaning + " |\n";
+  }
+  return table;
+}
+
 void live_from_json(const nlohmann::json& document, LiveConfig& config, std::vector<std::string>& problems) {
   estimation_from_json(document, {"video", "detection"}, config.estimation, problems);
   read_section(document, "video", config.video, problems);

@@ -51,6 +51,8 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add("--record", options.record_folder, "Record telemetry and detections, for geoloc_replay", "DIR");
   add("--truth", options.truth_file, "True targets, GeoJSON: the run is scored at its end", "FILE");
   program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
+  program.add_flag("--print-settings", options.print_settings,
+                   "Print what each setting means, as a table, and exit");
   add_output_options(program, options.outputs);
 }
 

@@ -29,6 +29,7 @@ struct LiveOptions {
   std::string record_folder;
   std::string truth_file;
   bool print_config = false;
+  bool print_settings = false;
   OutputFiles outputs;
 };
 

@@ -28,4 +28,12 @@ nlohmann::ordered_json section_to_json(const Section& section) {
   return writer.take();
 }
 
+/// Adds a line for each setting of a section.
+template <typename Section>
+void list_section(const char* key, std::vector<io::FieldLine>& lines) {
+  io::FieldLister lister(lines, key);
+  Section defaults;
+  visit_fields(lister, defaults);
+}
+
 }  // namespace geoloc::apps

@@ -36,6 +36,13 @@ nlohmann::ordered_json estimation_to_json(const EstimationConfig& config) {
   return json;
 }
 
+std::vector<io::FieldLine> estimation_field_lines() {
+  auto lines = io::geolocator_field_lines();
+  list_section<io::MavlinkConfig>("mavlink", lines);
+  list_section<FrameConfig>("frames", lines);
+  return lines;
+}
+
 void estimation_from_json(const nlohmann::json& document, const std::vector<std::string>& ignored_sections,
                           EstimationConfig& config, std::vector<std::string>& problems) {
   nlohmann::json rest = document;

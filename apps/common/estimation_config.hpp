@@ -25,6 +25,9 @@ struct EstimationConfig {
 /// Every setting with its present value; estimation_from_json() accepts it back.
 nlohmann::ordered_json estimation_to_json(const EstimationConfig& config);
 
+/// Path, default and meaning of each setting, but for the camera's.
+std::vector<io::FieldLine> estimation_field_lines();
+
 /// Reads over `config`. `ignored_sections`: top-level keys that belong to other programs.
 void estimation_from_json(const nlohmann::json& document, const std::vector<std::string>& ignored_sections,
                           EstimationConfig& config, std::vector<std::string>& problems);
