@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+import shutil
+import unittest
+
+from support import AppTest, run, tree
+
+
+class Determinism(AppTest):
+    """The same input gives the same bytes."""
+
+    def outputs_of_replay(self, recording, method, name):
+        folder = self.folder / method / name
+        folder.mkdir(parents=True)
+        result = run("geoloc_replay", recording, "--method", method, "--out", folder / "objects.geojson", "--raw", folder / "raw.csv",
+                     "--picture", folder / "picture.svg")
+        self.assertEqual(result.status, 0, result.err)
+        return tree(folder)
+
+    def test_a_recording_replayed_twice_gives_the_same_bytes(self):
+        recording = self.make_recording()
+        for method in "paper", "full":
+            with self.subTest(method):
+                first = self.outputs_of_replay(recording, method, "first")
+                self.assertEqual(first, self.outputs_of_replay(recording, method, "second"))
+                self.assertGreater(len(json.loads(first["objects.geojson"])["features"]), 0)
+
+    def test_the_simulator_writes_the_same_recording_for_the_same_seed(self):
+        first = tree(self.make_recording("first"))
+        self.assertEqual(first, tree(self.make_recording("second")))
+        self.assertNotEqual(first["frames.jsonl"], tree(self.make_recording("other", "--seed", 2))["frames.jsonl"])
+
+
+class BadRecordings(AppTest):
+    """A recording that cannot be trusted is refused with file, line and reason, and nothing is written."""
+
+    def setUp(self):
+        super().setUp()
+        self.recording = self.make_recording()
+        self.out = self.folder / "objects.geojson"
+
+    def spoil_line(self, number, line):
+        """Replaces a line (from 1) of frames.jsonl."""
+        file = self.recording / "frames.jsonl"
+        lines = file.read_text().splitlines()
+        lines[number - 1] = line
+        file.write_text("\n".join(lines) + "\n")
+
+    def replay(self, *arguments):
+        return run("geoloc_replay", self.recording, "--out", self.out, *arguments)
+
+    def assert_replay_refused(self, *reasons):
+        self.assert_refused(self.replay(), *reasons)
+        self.assertFalse(self.out.exists())
+
+    def test_no_such_folder(self):
+        shutil.rmtree(self.recording)
+        self.assert_replay_refused(self.recording)
+
+    def test_a_missing_file(self):
+        for name in "telemetry.tlog", "frames.jsonl", "camera.json":
+            with self.subTest(name):
+                hidden = (self.recording / name).rename(self.folder / "hidden")
+                self.assert_replay_refused(self.recording / name)
+                hidden.rename(self.recording / name)
+
+    def test_a_bad_line(self):
+        detection = '{"box": %s, "confidence": 0.9, "class_id": 0}'
+        bad_lines = {
+            "no JSON": "{",
+            "no time": '{"detections": []}',
+            "not a number": '{"time_us": 1795313538548800, "detections": [%s]}' % (detection % "[NaN, 1, 2, 3]"),
+            "infinite": '{"time_us": 1795313538548800, "detections": [%s]}' % (detection % "[1e999, 1, 2, 3]"),
+            "a box of no size": '{"time_us": 1795313538548800, "detections": [%s]}' % (detection % "[1, 1, 0, 3]"),
+        }
+        good = (self.recording / "frames.jsonl").read_text().splitlines()[2]
+        for name, line in bad_lines.items():
+            with self.subTest(name):
+                self.spoil_line(3, line)
+                self.assert_replay_refused(f"{self.recording / 'frames.jsonl'}:3: ")
+                self.spoil_line(3, good)
+        self.assertEqual(self.replay().status, 0)
+
+    def test_times_that_run_backwards(self):
+        self.spoil_line(7, '{"time_us": 1000000, "detections": []}')
+        self.assert_replay_refused(f"{self.recording / 'frames.jsonl'}:7: ", "backwards")
+
+    def test_keep_going_skips_bad_lines_and_counts_them(self):
+        self.spoil_line(3, "{")
+        self.spoil_line(5, '{"time_us": 1000000, "detections": []}')
+        result = self.replay("--keep-going")
+        self.assertEqual(result.status, 0, result.err)
+        self.assertIn("skipped 2 bad lines", result.err)
+        self.assertTrue(self.out.exists())
+
+    def test_an_output_that_cannot_be_written_fails_the_run(self):
+        result = run("geoloc_replay", self.recording, "--out", self.folder / "no such folder" / "objects.geojson")
+        self.assertEqual(result.status, 1)
+        self.assertIn("no such folder", result.err)
+
+
+class Settings(AppTest):
+    """--print-config prints what --config accepts."""
+
+    def test_what_is_printed_is_accepted_back_and_printed_again(self):
+        for program in "geoloc_app", "geoloc_replay":
+            with self.subTest(program):
+                first = run(program, "--print-config")
+                self.assertEqual(first.status, 0, first.err)
+                second = run(program, "--config", self.write("config.json", first.out), "--print-config")
+                self.assertEqual((second.status, second.out), (0, first.out), second.err)
+
+    def test_a_replay_accepts_the_settings_of_a_live_run(self):
+        config = self.write("config.json", run("geoloc_app", "--print-config").out)
+        result = run("geoloc_replay", self.make_recording(), "--config", config, "--out", self.folder / "objects.geojson")
+        self.assertEqual(result.status, 0, result.err)
+
+    def test_a_setting_changes_the_run(self):
+        config = self.write("config.json", {"method": "paper", "paper": {"confirm_hits": 100000}})
+        result = run("geoloc_replay", self.make_recording(), "--config", config)
+        self.assertIn("found 0 / 30", result.err)
+
+
+if __name__ == "__main__":
+    unittest.main()
