@@ -80,6 +80,7 @@ std::optional<std::vector<std::string>> parse_class_names(std::string_view dicti
   }
   if (names.empty() || !reader.is_at_end() || names.rbegin()->first != names.size() - 1) return std::nullopt;
   std::vector<std::string> in_order;
+  in_order.reserve(names.size());
   for (auto& [index, name] : names) in_order.push_back(std::move(name));
   return in_order;
 }
