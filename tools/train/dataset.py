@@ -11,6 +11,8 @@ from tqdm import tqdm
 INPUT_WIDTH = 640  # of the network
 INPUT_HEIGHT = 384
 FILL = 114  # grey of the letterbox' bars
+TARGET_SHARE = 0.6  # of the training crops show a target for certain,
+CANDIDATES = 4  # and the others are the one of so many with the most contrast
 KEPT_FRACTION = 0.4  # a target cut off more than this is no example
 
 
@@ -51,16 +53,24 @@ def load(folder: Path) -> list[Example]:
     return examples
 
 
-def random_crop(example: Example, size: int, random: np.random.Generator) -> Example:
-    """A square of size px out of the example at a random scale, usually around a target."""
-    side = int(round(size * random.uniform(0.75, 1.25)))
+def random_window(example: Example, side: int, random: np.random.Generator) -> tuple[int, int]:
+    """Left and top of a square of the image: around a target, or where something else stands out, for the
+    look-alikes teach more than plain ground."""
     height, width = example.image.shape[:2]
-    middle = random.uniform((0, 0), (width, height))
-    if len(example.boxes) and random.random() < 0.75:
+    if len(example.boxes) and random.random() < TARGET_SHARE:
         box = example.boxes[random.integers(len(example.boxes))]
-        middle = 0.5 * (box[:2] + box[2:]) + random.uniform(-0.5, 0.5, 2) * side
-    left = int(np.clip(middle[0] - side / 2, 0, width - side))
-    top = int(np.clip(middle[1] - side / 2, 0, height - side))
+        corner = 0.5 * (box[:2] + box[2:]) + random.uniform(-0.5, 0.5, 2) * side - 0.5 * side
+        return int(np.clip(corner[0], 0, width - side)), int(np.clip(corner[1], 0, height - side))
+    candidates = random.integers((0, 0), (width - side + 1, height - side + 1), (CANDIDATES, 2))
+    contrast = [example.image[top : top + side : 3, left : left + side : 3, 1].std() for left, top in candidates]
+    left, top = candidates[int(np.argmax(contrast))]
+    return int(left), int(top)
+
+
+def random_crop(example: Example, size: int, random: np.random.Generator) -> Example:
+    """A square of size px out of the example, at a random scale."""
+    side = int(round(size * random.uniform(0.75, 1.25)))
+    left, top = random_window(example, side, random)
     crop = example.image[top : top + side, left : left + side]
     resized = cv2.resize(crop, (size, size), interpolation=cv2.INTER_AREA if side > size else cv2.INTER_LINEAR)
     boxes = (example.boxes - np.float32([left, top, left, top])) * np.float32(size / side)

@@ -6,6 +6,7 @@ from torch.nn import functional
 
 LARGE_PX = 36.0  # input pixels: targets from here on belong to the stride-16 grid,
 OVERLAP = 1.3  # those within this factor of it to both
+SCORE_WEIGHT = 4.0  # telling targets from look-alikes is harder than boxing them
 REACH = 0.8  # predictors whose centre is this near the target's (in strides, either axis) answer for it
 
 
@@ -53,13 +54,12 @@ def detection_loss(
             continue
         predicted, truth = decoded[index, :, responsible].T, boxes[owner]
         overlap = intersection_over_union(corners(predicted), truth)
-        wanted[index, 0, responsible] = overlap.detach()
+        wanted[index, 0, responsible] = overlap.detach().sqrt()  # a good box scores near 1
         true_centre, true_size = 0.5 * (truth[:, :2] + truth[:, 2:]), truth[:, 2:] - truth[:, :2]
         # Geo-location uses the centre alone, so the centre is paid for once more, beside the overlap.
         off_centre = (predicted[:, :2] - true_centre).abs() / true_size
         off_size = (torch.log(predicted[:, 2:]) - torch.log(true_size)).abs()
         box_loss = box_loss + (1.0 - overlap).sum() + 4.0 * off_centre.mean(1).sum() + 0.5 * off_size.mean(1).sum()
         answers += len(responsible)
-    surprise = (scores.sigmoid().detach() - wanted).abs() ** 2  # quality focal loss: what is right already weighs little
-    score_loss = (surprise * functional.binary_cross_entropy_with_logits(scores, wanted, reduction="none")).sum()
-    return (2.0 * score_loss + box_loss) / max(answers, 1)
+    score_loss = functional.binary_cross_entropy_with_logits(scores, wanted, reduction="sum")
+    return (SCORE_WEIGHT * score_loss + box_loss) / max(answers, 1)

@@ -3,7 +3,7 @@
 
 Two grids of predictors, one every 8 and one every 16 input pixels. Each predicts, of the object whose centre
 is nearest: the centre's offset and the logarithm of width and height, both in units of the grid's
-stride, and a score that is trained to be the IoU of that very box.
+stride, and a score that is trained to follow the IoU of that very box.
 """
 
 import torch
@@ -38,21 +38,21 @@ class TargetDetector(nn.Module):
     """Images [B, 3, H, W] in 0..1 (H, W multiples of 16) to boxes [B, 4, N] and scores [B, 1, N] (logits),
     N = cells of the stride-8 grid, row by row, then those of the stride-16 grid."""
 
-    def __init__(self, neck: int = 64):
+    def __init__(self, neck: int = 48):
         super().__init__()
         self.to_stride_8 = nn.Sequential(
-            convolution(3, 16, 3, 2),
-            convolution(16, 32, 3, 2),
-            Residual(32),
-            convolution(32, 64, 3, 2),
-            Residual(64),
-            Residual(64),
+            convolution(3, 12, 3, 2),
+            convolution(12, 24, 3, 2),
+            Residual(24),
+            convolution(24, 48, 3, 2),
+            Residual(48),
+            Residual(48),
         )
         self.to_stride_16 = nn.Sequential(
-            convolution(64, 96, 3, 2), Residual(96), Residual(96), Residual(96)
+            convolution(48, 80, 3, 2), Residual(80), Residual(80), Residual(80)
         )
-        self.lateral_8 = convolution(64, neck, 1)
-        self.lateral_16 = convolution(96, neck, 1)
+        self.lateral_8 = convolution(48, neck, 1)
+        self.lateral_16 = convolution(80, neck, 1)
         self.enlarge = nn.Upsample(scale_factor=2, mode="nearest")
         self.refine = nn.ModuleList(Residual(neck) for _ in STRIDES)
         self.box = nn.ModuleList(nn.Conv2d(neck, BOX_VALUES, 1) for _ in STRIDES)

@@ -16,7 +16,7 @@ from export import export
 from loss import detection_loss
 from model import TargetDetector, cells, decode
 
-CROP_PX = 192
+CROP_PX = 160
 BATCH = 32
 PEAK_RATE = 3e-3
 WARM_UP_STEPS = 100
