@@ -18,11 +18,14 @@ using namespace geoloc;
 constexpr const char* kModel = GEOLOC_SOURCE_DIR "/data/models/fiducial.onnx";
 constexpr const char* kPicture = GEOLOC_SOURCE_DIR "/tests/data/detection/targets.jpg";
 constexpr io::ImageSize kPictureSize{1280, 720};
-constexpr io::ImageSize kInputSize{640, 384};
 
-cv::Mat letterboxed(const cv::Mat& picture) {
-  cv::Mat canvas{kInputSize.height_px, kInputSize.width_px, CV_8UC3, cv::Scalar::all(114)};
-  const io::Letterbox box = io::fit_letterbox(kPictureSize, kInputSize);
+io::ImageSize input_size() {
+  return io::OpencvDetector{{kModel, {}}, {}}.input_size();
+}
+
+cv::Mat letterboxed(const cv::Mat& picture, io::ImageSize input) {
+  cv::Mat canvas{input.height_px, input.width_px, CV_8UC3, cv::Scalar::all(114)};
+  const io::Letterbox box = io::fit_letterbox(kPictureSize, input);
   cv::Mat target = canvas(cv::Rect{box.left_px, box.top_px, box.scaled.width_px, box.scaled.height_px});
   cv::resize(picture, target, target.size(), 0, 0, cv::INTER_LINEAR);
   return canvas;
@@ -37,9 +40,10 @@ BENCHMARK(detect)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void preprocess(benchmark::State& state) {
   const cv::Mat picture = cv::imread(kPicture);
+  const io::ImageSize size = input_size();
   cv::Mat input;
   for (auto _ : state) {
-    cv::dnn::blobFromImage(letterboxed(picture), input, 1.0 / 255.0, {}, {}, true);
+    cv::dnn::blobFromImage(letterboxed(picture, size), input, 1.0 / 255.0, {}, {}, true);
     benchmark::DoNotOptimize(input.data);
   }
 }
@@ -47,7 +51,8 @@ BENCHMARK(preprocess)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void forward(benchmark::State& state) {
   cv::dnn::Net net = cv::dnn::readNetFromONNX(kModel);
-  const cv::Mat input = cv::dnn::blobFromImage(letterboxed(cv::imread(kPicture)), 1.0 / 255.0, {}, {}, true);
+  const cv::Mat input =
+      cv::dnn::blobFromImage(letterboxed(cv::imread(kPicture), input_size()), 1.0 / 255.0, {}, {}, true);
   for (auto _ : state) {
     net.setInput(input);
     benchmark::DoNotOptimize(net.forward().data);
@@ -66,7 +71,7 @@ void decode(benchmark::State& state) {
     const std::size_t row = i / kCandidates;
     values[i] = row < 2 ? place(random) : row < 4 ? 20.0F : score(random);
   }
-  const io::Letterbox box = io::fit_letterbox(kPictureSize, kInputSize);
+  const io::Letterbox box = io::fit_letterbox(kPictureSize, {640, 384});
   for (auto _ : state) {
     benchmark::DoNotOptimize(io::decode_yolo({values.data(), 1, kCandidates}, box, kPictureSize, {}));
   }

@@ -67,6 +67,7 @@ class RtspSource::Impl {
     } catch (const std::exception& error) {
       why = error.what();
     }
+    if (stop_) return has_delivered;
     exchange_.report_error(without_credentials(url_) + ": " + without_credentials_of(url_, why));
     exchange_.set_state(VideoState::kRetrying);
     return has_delivered;

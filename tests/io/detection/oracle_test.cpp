@@ -50,8 +50,6 @@ TEST(DefaultModel, FindsWhatOnnxRuntimeFinds) {
   const std::filesystem::path data{GEOLOC_TEST_DATA_DIR};
   const auto model = std::filesystem::path{GEOLOC_SOURCE_DIR} / "data/models/fiducial.onnx";
   const auto fixture = nlohmann::json::parse(std::ifstream{data / "detection/targets.json"});
-  ASSERT_EQ(std::filesystem::file_size(model), fixture.at("model_bytes"))
-      << "the model has changed: run tools/fixtures/make_detection_fixture.py";
 
   DetectionConfig config;
   config.confidence = 0.4;
@@ -60,6 +58,7 @@ TEST(DefaultModel, FindsWhatOnnxRuntimeFinds) {
   const auto found = detector.detect(cv::imread((data / "detection/targets.jpg").string()));
   const auto expected = expected_detections(fixture);
   EXPECT_GE(expected.size(), 5U);
+  SCOPED_TRACE("after a change of the model: tools/fixtures/make_detection_fixture.py");
   expect_contains(found, expected, config);
   expect_contains(expected, found, config);
 }
