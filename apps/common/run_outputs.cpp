@@ -30,6 +30,14 @@ std::vector<Eigen::Vector2d> positions(const std::vector<io::RawFix>& fixes) {
   return points;
 }
 
+std::vector<Gaussian2> confirmed(const Session& session) {
+  std::vector<Gaussian2> objects;
+  for (const Track& track : session.geolocator().tracks()) {
+    if (track.status == TrackStatus::kConfirmed) objects.push_back(track.position_in_enu);
+  }
+  return objects;
+}
+
 std::string picture_of(const Session& session, const std::vector<io::ObjectReport>& objects,
                        const std::vector<io::TrueTarget>& truth, const std::string& title) {
   io::RunPicture picture;
@@ -62,13 +70,17 @@ void write_outputs(const OutputFiles& files, const Session& session,
 }
 
 Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
-  std::vector<Eigen::Vector2d> objects;
-  for (const Track& track : session.geolocator().tracks()) {
-    if (track.status == TrackStatus::kConfirmed) objects.push_back(track.position_in_enu.mean);
-  }
   if (!session.geolocator().local_frame())
     return score_objects({}, std::vector<Eigen::Vector2d>(truth.size()));
+  std::vector<Eigen::Vector2d> objects;
+  for (const Gaussian2& object : confirmed(session)) objects.push_back(object.mean);
   return score_objects(objects, in_enu(truth, session.geolocator()));
+}
+
+double consistency_of_run(const Session& session, const std::vector<io::TrueTarget>& truth,
+                          const Score& score) {
+  if (!session.geolocator().local_frame()) return 0.0;
+  return mean_nees(confirmed(session), in_enu(truth, session.geolocator()), score.target_of_object);
 }
 
 std::string summarize(const Session& session, const std::vector<io::TrueTarget>& truth) {

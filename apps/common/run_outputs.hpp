@@ -26,6 +26,10 @@ void write_outputs(const OutputFiles& files, const Session& session,
 /// The run against the true targets.
 Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth);
 
+/// Of the objects that score matched (score.hpp).
+double consistency_of_run(const Session& session, const std::vector<io::TrueTarget>& truth,
+                          const Score& score);
+
 /// Lines for a person: objects found and, where the truth is known, how well.
 std::string summarize(const Session& session, const std::vector<io::TrueTarget>& truth);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eval/experiment.hpp"
 
+#include <Eigen/Geometry>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -8,6 +9,7 @@
 
 #include "common/replay.hpp"
 #include "common/run_outputs.hpp"
+#include "geoloc/geometry/angles.hpp"
 #include "geoloc/sim/flight.hpp"
 #include "geoloc/sim/scenario.hpp"
 
@@ -21,6 +23,25 @@ struct Task {
   std::uint64_t seed;
   std::size_t first_result;  // of as many as there are methods
 };
+
+std::optional<CalibrationError> calibration_error(const Session& session, const sim::RunSettings& run,
+                                                  const sim::Flight& flight) {
+  const auto estimated = session.geolocator().calibration();
+  if (!estimated) return std::nullopt;
+  const sim::TrueCamera camera = sim::make_true_camera(run, sim::run_seed(run, flight));
+  const Eigen::AngleAxisd turn(body_from_camera(sim::nominal_camera(run).mount).rotation.conjugate() *
+                               camera.body_from_camera.rotation);
+  const Eigen::Vector3d injected_rad = wrap_to_pi(turn.angle()) * turn.axis();
+  using Index = CalibrationIndex;
+  CalibrationError error;
+  error.latency_s = estimated->latency_s() - run.errors.latency_s;
+  error.sigma_latency_s = estimated->sigma(Index::kLatency);
+  error.boresight_deg = (estimated->boresight_rad() - injected_rad).head<2>() * kDegPerRad;
+  error.sigma_boresight_deg =
+      Eigen::Vector2d(estimated->sigma(Index::kBoresight), estimated->sigma(Index::kBoresight + 1)) *
+      kDegPerRad;
+  return error;
+}
 
 void run_task(const Experiment& experiment, const Task& task, std::vector<RunResult>& results) {
   sim::RecordingSettings settings = experiment.recording;
@@ -36,8 +57,14 @@ void run_task(const Experiment& experiment, const Task& task, std::vector<RunRes
     config.geolocator.method = experiment.methods[m];
     Session session(config);
     replay(task.flight->telemetry, frames, session);
-    results[task.first_result + m] = {task.flight->name, task.scenario, task.seed, experiment.methods[m],
-                                      score_run(session, truth)};
+    RunResult& result = results[task.first_result + m];
+    result.flight = task.flight->name;
+    result.scenario = task.scenario;
+    result.seed = task.seed;
+    result.method = experiment.methods[m];
+    result.score = score_run(session, truth);
+    result.nees = consistency_of_run(session, truth, result.score);
+    result.calibration = calibration_error(session, settings.run, *task.flight);
   }
 }
 

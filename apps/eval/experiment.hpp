@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,12 +25,22 @@ struct Experiment {
   EstimationConfig estimation;       ///< camera and method are set for each run
 };
 
+/// Estimated minus injected, with the stated sigma; only where the method estimates it.
+struct CalibrationError {
+  double latency_s = 0.0;
+  double sigma_latency_s = 0.0;
+  Eigen::Vector2d boresight_deg = Eigen::Vector2d::Zero();  ///< about the camera's x and y
+  Eigen::Vector2d sigma_boresight_deg = Eigen::Vector2d::Zero();
+};
+
 struct RunResult {
   std::string flight;
   int scenario = 0;
   std::uint64_t seed = 0;
   Method method = Method::kPaper;
   Score score;
+  double nees = 0.0;  ///< mean over the objects found; 2 is right
+  std::optional<CalibrationError> calibration;
 };
 
 /// All runs, in the order flight, scenario, seed, method, whatever the number of threads. `on_run` is called

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -36,6 +37,17 @@ Summary& summary_of(std::vector<Summary>& summaries, const RunResult& run) {
   return summaries.back();
 }
 
+void add_calibration(Summary& summary, const CalibrationError& error) {
+  const double latency_s = std::abs(error.latency_s);
+  summary.worst_latency_error_s = std::max(summary.worst_latency_error_s, latency_s);
+  summary.worst_sigmas = std::max(summary.worst_sigmas, latency_s / error.sigma_latency_s);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double boresight_deg = std::abs(error.boresight_deg[axis]);
+    summary.worst_boresight_error_deg = std::max(summary.worst_boresight_error_deg, boresight_deg);
+    summary.worst_sigmas = std::max(summary.worst_sigmas, boresight_deg / error.sigma_boresight_deg[axis]);
+  }
+}
+
 /// RMSE / found of one flight and scenario: means over the seeds.
 std::string cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
                  Method method) {
@@ -48,6 +60,16 @@ std::string cell(const std::vector<RunResult>& results, const std::string& fligh
     found += run.score.found;
   }
   return runs == 0 ? "" : fmt::format("{:.3f} / {:.1f}", rmse_m / runs, found / runs);
+}
+
+nlohmann::ordered_json to_json(const std::optional<CalibrationError>& error) {
+  if (!error) return nullptr;
+  return {{"latency_s", error->latency_s},
+          {"sigma_latency_s", error->sigma_latency_s},
+          {"boresight_x_deg", error->boresight_deg.x()},
+          {"boresight_y_deg", error->boresight_deg.y()},
+          {"sigma_boresight_x_deg", error->sigma_boresight_deg.x()},
+          {"sigma_boresight_y_deg", error->sigma_boresight_deg.y()}};
 }
 
 std::vector<std::string> flights_of(const std::vector<RunResult>& results, const std::string& set) {
@@ -72,10 +94,13 @@ std::vector<Summary> summarize(const std::vector<RunResult>& results) {
     summary.targets += run.score.targets;
     summary.extra += run.score.extra;
     summary.merged_pairs += run.score.merged_pairs;
+    summary.mean_nees += run.nees;
+    if (run.calibration) add_calibration(summary, *run.calibration);
   }
   for (Summary& summary : summaries) {
     summary.mean_rmse_m /= summary.runs;
     summary.mean_relative_rmse_m /= summary.runs;
+    summary.mean_nees /= summary.runs;
   }
   return summaries;
 }
@@ -83,13 +108,15 @@ std::vector<Summary> summarize(const std::vector<RunResult>& results) {
 std::string to_markdown(const std::vector<RunResult>& results) {
   const std::vector<Summary> summaries = summarize(results);
   std::string text =
-      "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs | NEES (2 is right) | "
+      "worst latency error s | worst boresight error deg | in stated sigmas |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   const auto out = std::back_inserter(text);
   for (const Summary& s : summaries) {
-    fmt::format_to(out, "| {} | {} | {} | {:.3f} | {:.3f} | {}/{} | {} | {} |\n", s.set, name_of(s.method),
-                   s.runs, s.mean_rmse_m, s.mean_relative_rmse_m, s.found, s.targets, s.extra,
-                   s.merged_pairs);
+    fmt::format_to(
+        out, "| {} | {} | {} | {:.3f} | {:.3f} | {}/{} | {} | {} | {:.2f} | {:.3f} | {:.2f} | {:.1f} |\n",
+        s.set, name_of(s.method), s.runs, s.mean_rmse_m, s.mean_relative_rmse_m, s.found, s.targets, s.extra,
+        s.merged_pairs, s.mean_nees, s.worst_latency_error_s, s.worst_boresight_error_deg, s.worst_sigmas);
   }
   for (const Summary& s : summaries) {
     fmt::format_to(out, "\n{}, {}: RMSE m / targets found, means over the seeds\n\n", s.set,
@@ -115,7 +142,9 @@ std::string to_json(const std::vector<RunResult>& results) {
                     {"found", run.score.found},
                     {"targets", run.score.targets},
                     {"extra", run.score.extra},
-                    {"merged_pairs", run.score.merged_pairs}});
+                    {"merged_pairs", run.score.merged_pairs},
+                    {"nees", run.nees},
+                    {"calibration_error", to_json(run.calibration)}});
   }
   auto summaries = nlohmann::ordered_json::array();
   for (const Summary& s : summarize(results)) {
@@ -127,7 +156,11 @@ std::string to_json(const std::vector<RunResult>& results) {
                          {"found", s.found},
                          {"targets", s.targets},
                          {"extra", s.extra},
-                         {"merged_pairs", s.merged_pairs}});
+                         {"merged_pairs", s.merged_pairs},
+                         {"mean_nees", s.mean_nees},
+                         {"worst_latency_error_s", s.worst_latency_error_s},
+                         {"worst_boresight_error_deg", s.worst_boresight_error_deg},
+                         {"worst_error_in_sigmas", s.worst_sigmas}});
   }
   return nlohmann::ordered_json{{"summaries", summaries}, {"runs", runs}}.dump(1) + "\n";
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
 
@@ -30,6 +31,7 @@ ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, int max_nodes) {
   right_hand_side_.resize(most);
   columns_.resize(most, kCalibration + kNodeSize);
   gains_.resize(most, 2);
+  inverse_.resize(most, most);
 }
 
 CalibrationVector ArrowheadSolver::prior_sigma(double sigma_offset_m) const {
@@ -44,12 +46,13 @@ void ArrowheadSolver::add_prior(double sigma_offset_m, const DriftTimeline& drif
   right_hand_side_.head<kCalibration>() += information.cwiseProduct(prior_mean_);
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number) {
     const DriftNode& node = drift.node(number);
+    const NodeVector information_of_node = drift.information(number);
     const Eigen::Index here = place_of(number, drift);
-    information_.block<kNodeSize, kNodeSize>(here, here).diagonal() += node.information;
-    right_hand_side_.segment<kNodeSize>(here) += node.information.cwiseProduct(node.prior_mean);
+    information_.block<kNodeSize, kNodeSize>(here, here).diagonal() += information_of_node;
+    right_hand_side_.segment<kNodeSize>(here) += information_of_node.cwiseProduct(node.prior_mean);
     if (number == drift.begin()) continue;
     const Eigen::Index before = here - kNodeSize;
-    const NodeVector coupling = node.transition.cwiseProduct(node.information);
+    const NodeVector coupling = node.transition.cwiseProduct(information_of_node);
     information_.block<kNodeSize, kNodeSize>(before, before).diagonal() +=
         coupling.cwiseProduct(node.transition);
     information_.block<kNodeSize, kNodeSize>(here, before).diagonal() -= coupling;
@@ -106,6 +109,31 @@ void ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks, doubl
       columns.leftCols<kCalibration>().transpose() * columns.leftCols<kCalibration>();
   newest_node_covariance_.noalias() =
       columns.rightCols<kNodeSize>().transpose() * columns.rightCols<kNodeSize>();
+}
+
+std::optional<double> ArrowheadSolver::observed_wandering(const DriftTimeline& drift) {
+  constexpr int kEnoughNodes = 8;
+  if (drift.size() < kEnoughNodes) return std::nullopt;
+  // Covariance of all nodes from the inverse of the factor.
+  auto inverse = inverse_.topLeftCorner(size_, size_);
+  inverse.setIdentity();
+  information_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solveInPlace(inverse);
+  double sum = 0.0;
+  int count = 0;
+  for (std::uint32_t number = drift.begin() + 1; number != drift.end(); ++number) {
+    const DriftNode& node = drift.node(number);
+    const NodeVector unit_information = node.information;
+    const Eigen::Index here = place_of(number, drift);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double transition = node.transition[axis];
+      const double step = node.mean[axis] - transition * drift.node(number - 1).mean[axis];
+      const double variance =
+          (inverse.col(here + axis) - transition * inverse.col(here - kNodeSize + axis)).squaredNorm();
+      sum += (step * step + variance) * unit_information[axis];
+      ++count;
+    }
+  }
+  return std::sqrt(sum / count);
 }
 
 void ArrowheadSolver::add_gain(const Landmark& landmark, const DriftTimeline& drift, double sign) const {

@@ -19,11 +19,13 @@ constexpr int kEagerFrames = 100;
 constexpr int kRounds = 3;
 /// Looks that make a track worth merging.
 constexpr int kMergeHits = 3;
-/// Same-frame evidence from which two tracks are never one.
-constexpr double kSeenApart = 1.75;
 /// What two tracks of one object may differ by beyond their stated noise: its looks differ with the
 /// direction.
 constexpr double kSigmaSameObject_m = 0.15;
+/// The wandering is learnt now and then: it costs a solution, and changes slowly.
+constexpr int kSolutionsPerLesson = 5;
+/// Bounds of what the reported accuracy is believed to be wrong by.
+constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
 /// What the assumed detection probability counts for against observed ones.
 constexpr double kPriorOpportunities = 20.0;
 /// Looks to remember: the detection probability follows the light and the ground.
@@ -59,6 +61,13 @@ std::vector<std::string> FullTrackerConfig::problems() const {
                 "full.sigma_attitude_deg must lie in (0, 30]");
   found.require(horizontal_accuracy_m > 0.0 && horizontal_accuracy_m <= 1000.0,
                 "full.horizontal_accuracy_m must lie in (0, 1000]");
+  found.require(least_offset_sigma_m >= 0.0 && least_offset_sigma_m <= 1000.0,
+                "full.least_offset_sigma_m must lie in [0, 1000]");
+  found.require(constant_share >= 0.0 && constant_share < 1.0, "full.constant_share must lie in [0, 1)");
+  found.require(sigma_attitude_bias_deg >= 0.0 && sigma_attitude_bias_deg <= 30.0,
+                "full.sigma_attitude_bias_deg must lie in [0, 30]");
+  found.require(sigma_state_lag_s >= 0.0 && sigma_state_lag_s <= 1.0,
+                "full.sigma_state_lag_s must lie in [0, 1]");
   found.require(fast_share >= 0.0 && fast_share <= 1.0, "full.fast_share must lie in [0, 1]");
   found.require(fast_time_constant_s >= 0.0 && fast_time_constant_s <= 100.0,
                 "full.fast_time_constant_s must lie in [0, 100]");
@@ -96,19 +105,34 @@ FullTracker::FullTracker(const FullTrackerConfig& config, int max_detections)
   all_landmarks_.reserve(tracks);
   candidates_.reserve(tracks);
   look_of_track_.reserve(tracks);
+  detection_probability_of_track_.reserve(tracks);
   looks_.reserve(looks);
   track_of_look_.reserve(looks);
   median_scratch_.reserve(looks);
   costs_.resize(max_detections, config.max_tracks);
   assignment_.reserve(max_detections, config.max_tracks);
   calibration_.mean = solver_.prior_mean();
-  calibration_.covariance = solver_.prior_sigma(sigma_axis_m()).array().square().matrix().asDiagonal();
+  calibration_.covariance = solver_.prior_sigma(sigma_offset_m()).array().square().matrix().asDiagonal();
 }
 
-/// Half of the position error's variance is taken as constant, half as wandering; the reported accuracy is
-/// radial.
-double FullTracker::sigma_axis_m() const {
-  return 0.5 * reported_accuracy_m_;
+/// Of the wandering, an axis; the reported accuracy is radial.
+double FullTracker::reported_sigma_m() const {
+  return std::sqrt(0.5 * (1.0 - config_.constant_share)) * reported_accuracy_m_;
+}
+
+/// A receiver that wanders less than it reports is taken to be as much better in what no look can show.
+double FullTracker::sigma_offset_m() const {
+  const double sigma_m = std::sqrt(0.5 * config_.constant_share) * reported_accuracy_m_;
+  return std::max(config_.least_offset_sigma_m, drift_.position_scale() * sigma_m);
+}
+
+Calibration FullTracker::calibration_of_camera() const {
+  Calibration camera = calibration_;
+  const double attitude = config_.sigma_attitude_bias_deg * kRadPerDeg;
+  camera.covariance.diagonal().segment<3>(Index::kBoresight).array() += attitude * attitude;
+  camera.covariance(Index::kLatency, Index::kLatency) +=
+      config_.sigma_state_lag_s * config_.sigma_state_lag_s;
+  return camera;
 }
 
 void FullTracker::update(const std::vector<LocatedDetection>& detections, const Projector& projector,
@@ -116,8 +140,8 @@ void FullTracker::update(const std::vector<LocatedDetection>& detections, const 
   begin_frame(view);
   make_looks(detections, projector, view);
   associate();
-  note_same_frame_evidence();
   weigh_missed(projector, view);
+  note_same_frame_evidence();
   absorb_matched(view.captured_at_host);
   start_tentative(view.captured_at_host);
   remove_improbable();
@@ -133,7 +157,7 @@ void FullTracker::begin_frame(const FrameView& view) {
     if (pause_s > 0.0) noise_correlation_ = std::max(1.0, 2.0 * config_.fast_time_constant_s / pause_s);
   }
   previous_frame_ = view.vehicle.time;
-  span_ = drift_.cover(view.vehicle.time, sigma_axis_m());
+  span_ = drift_.cover(view.vehicle.time, reported_sigma_m());
   while (drift_.size() > config_.drift.max_nodes) {
     for (const Estimate& estimate : estimates_) landmarks_[estimate.landmark].freeze(drift_.begin(), drift_);
     drift_.freeze_oldest();
@@ -148,7 +172,8 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
   const double height_m =
       view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const double attitude_variance = std::pow(config_.sigma_attitude_deg * kRadPerDeg, 2);
-  const double fast_variance = std::pow(config_.fast_share * reported_accuracy_m_, 2) / 2.0;
+  const double fast_variance =
+      std::pow(config_.fast_share * drift_.position_scale() * reported_accuracy_m_, 2) / 2.0;
   const CameraIntrinsics& camera = projector.camera().intrinsics();
   // What the fix already holds: all but the offset.
   CalibrationVector applied = calibration_.mean;
@@ -222,17 +247,16 @@ void FullTracker::fill_costs(const Eigen::Vector2d& shift) {
 }
 
 /// Median of the residuals: what all looks of this frame share.
-Eigen::Vector2d FullTracker::common_shift() const {
+Eigen::Vector2d FullTracker::common_shift() {
   Eigen::Vector2d shift;
-  auto& values = const_cast<std::vector<double>&>(median_scratch_);
   for (int axis = 0; axis < 2; ++axis) {
-    values.clear();
+    median_scratch_.clear();
     for (std::size_t i = 0; i < looks_.size(); ++i) {
       if (track_of_look_[i] == AssignmentSolver::kUnassigned) continue;
       const Track& track = tracks_[static_cast<std::size_t>(track_of_look_[i])];
-      values.push_back(looks_[i].position[axis] - track.position_in_enu.mean[axis]);
+      median_scratch_.push_back(looks_[i].position[axis] - track.position_in_enu.mean[axis]);
     }
-    shift[axis] = median(values);
+    shift[axis] = median(median_scratch_);
   }
   return shift;
 }
@@ -275,7 +299,7 @@ void FullTracker::note_same_frame_evidence() {
       if (other == matched || apart.squaredNorm() > reach_m * reach_m) continue;
       if (look_of_track_[other] != AssignmentSolver::kUnassigned) {
         estimates_[matched].neighbours.seen_apart(tracks_[other].id);
-      } else {
+      } else if (detection_probability_of_track_[other] > 0.0) {
         estimates_[matched].neighbours.seen_as_one(tracks_[other].id);
         estimates_[other].neighbours.seen_as_one(tracks_[matched].id);
       }
@@ -304,11 +328,13 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
 }
 
 void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
+  detection_probability_of_track_.assign(tracks_.size(), 0.0);
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     const bool is_matched = look_of_track_[k] != AssignmentSolver::kUnassigned;
     if (is_matched && tracks_[k].status != TrackStatus::kConfirmed) continue;
     const double probability = detection_probability(k, projector, view);
     if (probability <= 0.0) continue;
+    detection_probability_of_track_[k] = probability;
     if (!is_matched) {
       estimates_[k].existence.miss(probability);
       ++tracks_[k].penalty;
@@ -416,12 +442,19 @@ void FullTracker::solve_if_due(VehicleTime now) {
   solved_at_ = now;
   all_landmarks_.clear();
   for (const Estimate& estimate : estimates_) all_landmarks_.push_back(&landmarks_[estimate.landmark]);
-  solver_.solve(all_landmarks_, sigma_axis_m(), drift_, calibration_);
+  solver_.solve(all_landmarks_, sigma_offset_m(), drift_, calibration_);
+  learn_wandering();
   for (std::size_t k = 0; k < tracks_.size(); ++k) refresh(k);
   merge_compatible();
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     tracks_[k].position_in_enu.covariance = solver_.covariance(landmarks_[estimates_[k].landmark], drift_);
   }
+}
+
+void FullTracker::learn_wandering() {
+  if (++solutions_ % kSolutionsPerLesson != 0) return;
+  const auto wandering = solver_.observed_wandering(drift_);
+  if (wandering) drift_.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
 }
 
 void FullTracker::merge_compatible() {
@@ -430,7 +463,7 @@ void FullTracker::merge_compatible() {
       const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
       const bool is_candidate = apart.squaredNorm() <= config_.merge_radius_m * config_.merge_radius_m &&
                                 std::min(tracks_[a].hits, tracks_[b].hits) >= kMergeHits &&
-                                estimates_[a].neighbours.apart(tracks_[b].id) < kSeenApart;
+                                !estimates_[a].neighbours.are_apart(tracks_[b].id);
       Landmark& landmark_a = landmarks_[estimates_[a].landmark];
       const Landmark& landmark_b = landmarks_[estimates_[b].landmark];
       if (!is_candidate ||

@@ -69,4 +69,17 @@ Score score_objects(const std::vector<Eigen::Vector2d>& objects,
   return score;
 }
 
+double mean_nees(const std::vector<Gaussian2>& objects, const std::vector<Eigen::Vector2d>& targets,
+                 const std::vector<int>& target_of_object) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (target_of_object[i] == AssignmentSolver::kUnassigned) continue;
+    const Eigen::Vector2d error = objects[i].mean - targets[static_cast<std::size_t>(target_of_object[i])];
+    sum += mahalanobis_squared(error, objects[i].covariance);
+    ++count;
+  }
+  return count == 0 ? 0.0 : sum / count;
+}
+
 }  // namespace geoloc

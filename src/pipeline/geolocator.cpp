@@ -68,7 +68,7 @@ const TrackCounters& Geolocator::track_counters() const {
 std::optional<Calibration> Geolocator::calibration() const {
   const auto* full = std::get_if<FullTracker>(&tracker_);
   if (full == nullptr) return std::nullopt;
-  return full->calibration();
+  return full->calibration_of_camera();
 }
 
 Duration Geolocator::latency() const {

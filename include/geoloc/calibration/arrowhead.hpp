@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "geoloc/calibration/calibration.hpp"
@@ -23,6 +24,11 @@ class ArrowheadSolver {
 
   /// Covariance of the newest node after solve().
   const NodeMatrix& newest_node_covariance() const { return newest_node_covariance_; }
+
+  /// How strongly the position was seen to wander, in units of what the nodes' prior says: one step of
+  /// expectation maximisation after solve(). nullopt while there are too few nodes to tell. Costs as much as
+  /// a solution.
+  std::optional<double> observed_wandering(const DriftTimeline& drift);
 
   /// Of an object's absolute position after solve(): its own noise and that of the head.
   Eigen::Matrix2d covariance(const Landmark& landmark, const DriftTimeline& drift) const;
@@ -48,6 +54,7 @@ class ArrowheadSolver {
   Eigen::MatrixXd information_;    // S; its lower triangle holds the Cholesky factor after solve()
   Eigen::VectorXd right_hand_side_;
   Eigen::MatrixXd columns_;  // scratch: right-hand sides for covariances
+  Eigen::MatrixXd inverse_;  // scratch: of the factor
   mutable Gains gains_;      // scratch: dx/d(head), transposed
   Eigen::Index size_ = 0;
   NodeMatrix newest_node_covariance_ = NodeMatrix::Zero();

@@ -62,6 +62,16 @@ class DriftTimeline {
   const DriftNode& node(std::uint32_t number) const { return nodes_[number % nodes_.size()]; }
   DriftNode& node(std::uint32_t number) { return nodes_[number % nodes_.size()]; }
 
+  /// Information of a node's prior, with the wandering of the position scaled as set.
+  NodeVector information(std::uint32_t number) const {
+    const double position = 1.0 / (position_scale_ * position_scale_);
+    return node(number).information.cwiseProduct(NodeVector(position, position, 1.0));
+  }
+
+  /// How strongly the position wanders against what the receiver's accuracy let expect.
+  double position_scale() const { return position_scale_; }
+  void set_position_scale(double scale) { position_scale_ = scale; }
+
   /// Forgets the oldest node: its estimate becomes the fixed start of what follows.
   void freeze_oldest();
 
@@ -72,6 +82,7 @@ class DriftTimeline {
   std::vector<DriftNode> nodes_;  // a ring
   std::uint32_t begin_ = 0;
   std::uint32_t end_ = 0;
+  double position_scale_ = 1.0;
 };
 
 }  // namespace geoloc

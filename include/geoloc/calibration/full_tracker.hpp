@@ -32,7 +32,12 @@ class FullTracker {
   /// Tentative and confirmed, in order of their ids.
   const std::vector<Track>& tracks() const { return tracks_; }
   const TrackCounters& counters() const { return counters_; }
+
+  /// What looks are located with: the camera's constant errors and those of the autopilot's state in one.
   const Calibration& calibration() const { return calibration_; }
+
+  /// The same as an estimate of the camera's errors alone: the autopilot's own are part of its sigma.
+  Calibration calibration_of_camera() const;
 
  private:
   /// What the tracker knows of a track beyond its public face; same index as in tracks_.
@@ -65,7 +70,7 @@ class FullTracker {
   void fill_costs(const Eigen::Vector2d& shift);
   std::optional<Eigen::Matrix2d> innovation_covariance(const Look& look, const Estimate& estimate,
                                                        const Eigen::Vector2d& residual) const;
-  Eigen::Vector2d common_shift() const;
+  Eigen::Vector2d common_shift();
   void absorb_matched(HostTime captured_at);
   void note_same_frame_evidence();
   void weigh_missed(const Projector& projector, const FrameView& view);
@@ -77,7 +82,9 @@ class FullTracker {
   void refresh(std::size_t track);
   void remove(std::size_t track);
   double detection_probability(std::size_t track, const Projector& projector, const FrameView& view) const;
-  double sigma_axis_m() const;
+  void learn_wandering();
+  double reported_sigma_m() const;
+  double sigma_offset_m() const;
 
   FullTrackerConfig config_;
   DriftTimeline drift_;
@@ -102,11 +109,13 @@ class FullTracker {
   std::vector<std::size_t> candidates_;
   std::vector<int> track_of_look_;
   std::vector<int> look_of_track_;
+  std::vector<double> detection_probability_of_track_;  // of the tracks this frame should show
   std::vector<double> median_scratch_;
 
   std::optional<VehicleTime> previous_frame_;
   std::optional<VehicleTime> solved_at_;
   int frames_ = 0;
+  int solutions_ = 0;
   double expected_hits_;  // of confirmed objects in view, and how many there were: the detection probability
   double opportunities_;
   std::uint64_t next_id_ = 1;

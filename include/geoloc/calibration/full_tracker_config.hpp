@@ -18,8 +18,15 @@ struct FullTrackerConfig {
   double sigma_attitude_deg = 0.15;  ///< of roll, pitch and yaw from frame to frame
   double horizontal_accuracy_m =
       0.85;  ///< of the vehicle's position, where the autopilot reports none (radial, 1-sigma)
-  double fast_share = 0.25;           ///< of it, what changes from second to second
+  double constant_share = 0.3;  ///< of its variance, what stays constant over a flight; the rest wanders
+  double least_offset_sigma_m =
+      0.02;                  ///< of the constant position error, an axis, whatever the wandering shows
+  double fast_share = 0.25;  ///< of it, what changes from second to second
   double fast_time_constant_s = 1.0;  ///< frames within it share their attitude and position noise
+
+  // Constant errors of the autopilot's state, which no look can tell from the camera's.
+  double sigma_attitude_bias_deg = 0.12;  ///< of roll and pitch
+  double sigma_state_lag_s = 0.01;        ///< state shown late by its filter and its link
 
   // Association.
   double gate = 11.8;  ///< squared Mahalanobis distance; chi-square, 2 degrees of freedom, 99.7 %

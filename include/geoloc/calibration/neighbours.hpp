@@ -8,7 +8,8 @@
 namespace geoloc {
 
 /// Same-frame evidence of one track against those near it: two tracks that were matched to two detections of
-/// one frame are two objects. The few nearest in time are kept.
+/// one frame are two objects. Twice is proof, and stays so; once may be a detector that fired twice, and
+/// wears off. The dozen with the strongest evidence are kept.
 class Neighbours {
  public:
   void seen_apart(std::uint64_t other) { entry(other).evidence += 1.0; }
@@ -16,20 +17,16 @@ class Neighbours {
   /// One detection where both should have given one: weaker, since detectors miss.
   void seen_as_one(std::uint64_t other) {
     for (Entry& candidate : entries_) {
-      if (candidate.other == other) candidate.evidence = std::max(0.0, candidate.evidence - 0.25);
+      if (candidate.other != other || candidate.evidence >= kProof) continue;
+      candidate.evidence = std::max(0.0, candidate.evidence - 0.25);
     }
   }
 
-  double apart(std::uint64_t other) const {
-    for (const Entry& candidate : entries_) {
-      if (candidate.other == other) return candidate.evidence;
-    }
-    return 0.0;
-  }
+  bool are_apart(std::uint64_t other) const { return evidence_against(other) >= kProof; }
 
   /// `gone` is now known as `kept`.
   void rename(std::uint64_t gone, std::uint64_t kept) {
-    const double evidence = apart(gone);
+    const double evidence = evidence_against(gone);
     if (evidence == 0.0) return;
     entry(gone) = Entry{};
     entry(kept).evidence += evidence;
@@ -42,10 +39,19 @@ class Neighbours {
   }
 
  private:
+  static constexpr double kProof = 2.0;
+
   struct Entry {
     std::uint64_t other = 0;  // ids start at 1
     double evidence = 0.0;
   };
+
+  double evidence_against(std::uint64_t other) const {
+    for (const Entry& candidate : entries_) {
+      if (candidate.other == other) return candidate.evidence;
+    }
+    return 0.0;
+  }
 
   Entry& entry(std::uint64_t other) {
     Entry* weakest = &entries_[0];

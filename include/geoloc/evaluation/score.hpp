@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "geoloc/tracking/gaussian.hpp"
+
 namespace geoloc {
 
 /// How well a run found the targets (docs/formats.md, scoring).
@@ -21,5 +23,10 @@ struct Score {
 /// Objects are matched one-to-one to targets at minimum total distance; pairs over 3 m do not count. East,
 /// north [m].
 Score score_objects(const std::vector<Eigen::Vector2d>& objects, const std::vector<Eigen::Vector2d>& targets);
+
+/// Mean over the matched objects of the squared error in units of the stated covariance (NEES); 2 where the
+/// covariance is right, 0 where nothing was matched.
+double mean_nees(const std::vector<Gaussian2>& objects, const std::vector<Eigen::Vector2d>& targets,
+                 const std::vector<int>& target_of_object);
 
 }  // namespace geoloc

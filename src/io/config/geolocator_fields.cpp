@@ -69,8 +69,13 @@ void visit_fields(Visitor& v, FullTrackerConfig& full) {
   v.field("sigma_px", full.sigma_px, "px, 1-sigma of a box's centre, an axis");
   v.field("sigma_attitude_deg", full.sigma_attitude_deg, "deg, 1-sigma from frame to frame");
   v.field("horizontal_accuracy_m", full.horizontal_accuracy_m, "m, radial, where the autopilot reports none");
+  v.field("constant_share", full.constant_share, "of its variance, what stays constant over a flight");
+  v.field("least_offset_sigma_m", full.least_offset_sigma_m,
+          "m, 1-sigma an axis of the constant position error at least");
   v.field("fast_share", full.fast_share, "of the accuracy, what changes from second to second");
   v.field("fast_time_constant_s", full.fast_time_constant_s, "s, frames within it share their noise");
+  v.field("sigma_attitude_bias_deg", full.sigma_attitude_bias_deg, "deg, the autopilot's own, 1-sigma");
+  v.field("sigma_state_lag_s", full.sigma_state_lag_s, "s, the autopilot's own, 1-sigma");
   v.field("gate", full.gate, "squared Mahalanobis distance up to which a pair is accepted");
   v.field("class_mismatch_cost", full.class_mismatch_cost, "added to it where the classes differ");
   v.field("duplicate_share", full.duplicate_share, "of their size: detections nearer than this are one");
