@@ -27,6 +27,14 @@ double finite_number(const json& value, const char* what) {
   return value.get<double>();
 }
 
+int whole_number(const json& value, const char* what, double below) {
+  const double number = finite_number(value, what);
+  if (!(number >= 0.0 && number < below && number == std::floor(number))) {
+    throw std::invalid_argument(std::string(what) + " must be a whole number from 0");
+  }
+  return static_cast<int>(number);
+}
+
 const json& member(const json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end()) throw std::invalid_argument(std::string(key) + " is missing");
@@ -54,13 +62,7 @@ Detection parse_detection(const json& value) {
   if (!(detection.confidence >= 0.0 && detection.confidence <= 1.0)) {
     throw std::invalid_argument("confidence must lie in [0, 1]");
   }
-  if (value.contains("class_id")) {
-    const double class_id = finite_number(value["class_id"], "class_id");
-    if (!(class_id >= 0.0 && class_id < 1e6 && class_id == std::floor(class_id))) {
-      throw std::invalid_argument("class_id must be a whole number from 0");
-    }
-    detection.class_id = static_cast<int>(class_id);
-  }
+  if (value.contains("class_id")) detection.class_id = whole_number(value["class_id"], "class_id", 1e6);
   return detection;
 }
 
@@ -97,8 +99,10 @@ TrueTarget parse_target(const json& feature, int position) {
   if (!is_valid(target.position)) throw std::invalid_argument("not a place on Earth (lon, lat order?)");
   if (const auto properties = feature.find("properties");
       properties != feature.end() && properties->is_object()) {
-    target.id = properties->value("id", position);
-    target.class_id = properties->value("class_id", 0);
+    if (properties->contains("id")) target.id = whole_number((*properties)["id"], "id", 1e9);
+    if (properties->contains("class_id")) {
+      target.class_id = whole_number((*properties)["class_id"], "class_id", 1e6);
+    }
   }
   return target;
 }
@@ -145,22 +149,25 @@ std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& n
   return frames;
 }
 
-std::vector<TrueTarget> read_truth(const fs::path& file) {
-  const json document = json::parse(read_text_file(file), nullptr, false);
+std::vector<TrueTarget> parse_truth(const std::string& text, const std::string& name) {
+  const json document = json::parse(text, nullptr, false);
   if (document.is_discarded() || !document.is_object() || !document.contains("features") ||
       !document["features"].is_array()) {
-    throw std::runtime_error(file.string() + ": not a GeoJSON FeatureCollection");
+    throw std::runtime_error(name + ": not a GeoJSON FeatureCollection");
   }
   std::vector<TrueTarget> targets;
   for (const json& feature : document["features"]) {
     try {
       targets.push_back(parse_target(feature, static_cast<int>(targets.size())));
     } catch (const std::exception& error) {
-      throw std::runtime_error(file.string() + ": feature " + std::to_string(targets.size()) + ": " +
-                               error.what());
+      throw std::runtime_error(name + ": feature " + std::to_string(targets.size()) + ": " + error.what());
     }
   }
   return targets;
+}
+
+std::vector<TrueTarget> read_truth(const fs::path& file) {
+  return parse_truth(read_text_file(file), file.string());
 }
 
 Recording read_recording(const fs::path& folder, BadLines bad_lines) {

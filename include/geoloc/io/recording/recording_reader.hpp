@@ -39,4 +39,7 @@ std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& n
 /// GeoJSON Points with `id` and, optionally, `class_id`. Throws std::runtime_error with file and reason.
 std::vector<TrueTarget> read_truth(const std::filesystem::path& file);
 
+/// The same from the file's text; `name` stands for the file in messages.
+std::vector<TrueTarget> parse_truth(const std::string& text, const std::string& name);
+
 }  // namespace geoloc::io

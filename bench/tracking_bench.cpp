@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame costs the estimator: the whole of process(), the assignment alone, and the state buffer.
+#include <benchmark/benchmark.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <random>
+
+#include "geoloc/pipeline/geolocator.hpp"
+#include "geoloc/state/state_buffer.hpp"
+#include "geoloc/tracking/assignment.hpp"
+
+namespace {
+
+using namespace geoloc;
+using namespace std::chrono_literals;
+
+constexpr VehicleTime kStart{60s};
+constexpr double kHeight_m = 100.0;
+constexpr double kSpacing_m = 3.0;  // beyond gate and merging distance
+
+/// Hovering level, nose north, with telemetry around kStart.
+Geolocator hovering(const GeolocatorConfig& config) {
+  Geolocator geolocator(config);
+  for (const Duration offset : {-100ms, 0ms, 100ms}) {
+    geolocator.add(AttitudeSample{kStart + offset, {}});
+    PositionSample position;
+    position.time = kStart + offset;
+    position.position = {-22.906, -43.133};
+    position.height_above_home_m = kHeight_m;
+    geolocator.add(position);
+  }
+  return geolocator;
+}
+
+/// Boxes of objects that stand in a square grid around the point below the vehicle.
+std::vector<Detection> grid_of_detections(int count, double focal_px) {
+  const double spacing_px = kSpacing_m / kHeight_m * focal_px;
+  const int side = static_cast<int>(std::ceil(std::sqrt(count)));
+  std::vector<Detection> detections;
+  for (int i = 0; i < count; ++i) {
+    const double u = 639.5 + (i % side - 0.5 * (side - 1)) * spacing_px;
+    const double v = 359.5 + (i / side - 0.5 * (side - 1)) * spacing_px;
+    detections.push_back({{u - 4.0, v - 4.0, 8.0, 8.0}, 0.9, 0});
+  }
+  return detections;
+}
+
+/// The paper's method: `detections` of a frame against `tracks` that all are in view.
+void process_frame(benchmark::State& state) {
+  const auto detections = static_cast<std::size_t>(state.range(0));
+  const int tracks = static_cast<int>(state.range(1));
+  GeolocatorConfig config;
+  config.method = Method::kPaper;
+  config.max_detections = tracks;
+  config.paper.max_penalty = 1'000'000'000;  // those that are not detected stay
+  Geolocator geolocator = hovering(config);
+  FrameDetections frame;
+  frame.captured_at = kStart;
+  frame.detections = grid_of_detections(tracks, config.camera.intrinsics.fx_px);
+  for (int i = 0; i < config.paper.confirm_hits; ++i) geolocator.process(frame);
+  if (geolocator.tracks().size() != static_cast<std::size_t>(tracks))
+    state.SkipWithError("not as many tracks");
+  frame.detections.resize(detections);
+  for (auto _ : state) geolocator.process(frame);
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(process_frame)
+    ->Args({10, 100})
+    ->Args({1, 1000})
+    ->Args({30, 30})
+    ->Args({100, 1000})
+    ->ArgNames({"detections", "tracks"});
+
+void assignment(benchmark::State& state) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0.0, 6.0);
+  const Eigen::MatrixXd costs =
+      Eigen::MatrixXd::NullaryExpr(state.range(0), state.range(1), [&] { return uniform(random); });
+  AssignmentSolver solver;
+  for (auto _ : state) benchmark::DoNotOptimize(solver.solve(costs, 3.0));
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(assignment)->Args({30, 30})->Args({100, 1000})->ArgNames({"rows", "columns"});
+
+void buffer_insert_and_look_up(benchmark::State& state) {
+  StateBuffer<Eigen::Vector3d> buffer;
+  VehicleTime now = kStart;
+  for (auto _ : state) {
+    now += 100ms;
+    buffer.insert(now, Eigen::Vector3d::Ones());
+    benchmark::DoNotOptimize(buffer.bracket(now - 150ms, 600ms, 5ms));
+  }
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(buffer_insert_and_look_up);
+
+}  // namespace

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "geoloc/io/config/geolocator_fields.hpp"
+#include "geoloc/io/json/camera_fields.hpp"
+#include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/recording/recording_reader.hpp"
+
+// Every reader of a file from outside, given any bytes: it may refuse them with a std::exception, but what it
+// accepts must be usable. Broken promises abort. Shared by the fuzz programs and by the test that damages
+// good files.
+namespace geoloc::io::hostile {
+
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+inline bool is_usable(const Detection& detection) {
+  const Box& box = detection.box;
+  return std::isfinite(box.x) && std::isfinite(box.y) && box.width > 0.0 && box.height > 0.0 &&
+         detection.confidence >= 0.0 && detection.confidence <= 1.0 && detection.class_id >= 0;
+}
+
+inline void read_any_frames(const std::string& text, BadLines bad_lines) {
+  std::istringstream input(text);
+  std::size_t skipped = 0;
+  HostTime previous{};
+  for (const RecordedFrame& frame : read_frames(input, "any", bad_lines, skipped)) {
+    require(frame.captured_at >= previous);
+    previous = frame.captured_at;
+    for (const Detection& detection : frame.detections) require(is_usable(detection));
+  }
+}
+
+/// frames.jsonl.
+inline void read_any_frames(const std::string& text) {
+  read_any_frames(text, BadLines::kSkip);  // refuses nothing
+  try {
+    read_any_frames(text, BadLines::kRefuse);
+  } catch (const std::exception&) {
+  }
+}
+
+/// telemetry.tlog. Every byte belongs to a record or is counted.
+inline void read_any_tlog(const std::string& text) {
+  const Tlog log(std::vector<std::uint8_t>(text.begin(), text.end()));
+  std::size_t framed = 0;
+  for (const TlogRecord& record : log.records()) {
+    require(record.frame[0] == 0xFD || record.frame[0] == 0xFE);
+    const volatile std::uint8_t last = record.frame[record.size - 1];  // a sanitizer would object
+    static_cast<void>(last);
+    framed += 8 + record.size;
+  }
+  require(framed + log.skipped_bytes() == text.size());
+}
+
+/// A calibration, as YAML and as JSON.
+inline void read_any_camera(const std::string& text) {
+  try {
+    require(camera_from_yaml(text, "any", {}).problems().empty());
+  } catch (const std::runtime_error&) {
+  }
+  CameraConfig camera;
+  std::vector<std::string> problems;
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_discarded()) camera_from_json(json, "", false, camera, problems);
+}
+
+/// --config: what is accepted can be printed, and what is printed is accepted.
+inline void read_any_config(const std::string& text) {
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (json.is_discarded()) return;
+  if (json.is_object() && json.contains("camera") && json["camera"].is_string())
+    return;  // would open that file
+  GeolocatorConfig config;
+  std::vector<std::string> problems;
+  geolocator_from_json(json, config, problems);
+  if (!problems.empty()) return;
+  GeolocatorConfig again;
+  geolocator_from_json(nlohmann::json(geolocator_to_json(config)), again, problems);
+  require(problems.empty());
+}
+
+/// truth.geojson.
+inline void read_any_truth(const std::string& text) {
+  try {
+    for (const TrueTarget& target : parse_truth(text, "any")) require(is_valid(target.position));
+  } catch (const std::runtime_error&) {
+  }
+}
+
+}  // namespace geoloc::io::hostile
