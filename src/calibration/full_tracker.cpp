@@ -429,7 +429,8 @@ void FullTracker::remove(std::size_t k) {
 
 void FullTracker::remove_improbable() {
   for (std::size_t k = tracks_.size(); k-- > 0;) {
-    if (estimates_[k].existence.probability() >= config_.delete_probability) continue;
+    tracks_[k].existence = estimates_[k].existence.probability();
+    if (*tracks_[k].existence >= config_.delete_probability) continue;
     remove(k);
     ++counters_.removed;
   }

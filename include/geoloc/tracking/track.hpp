@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/tracking/class_votes.hpp"
@@ -20,13 +21,17 @@ struct Track {
   int hits = 0;     ///< detections that made it
   int penalty = 0;  ///< frames in which it should have been seen and was not, less those in which it was
   double confidence_sum = 0.0;
+  std::optional<double> existence;  ///< probability
   ClassVotes class_votes;
   HostTime first_seen;
   HostTime last_seen;
 
   int class_id() const { return class_votes.winner(); }
-  /// Mean confidence of its detections.
-  double confidence() const { return hits > 0 ? confidence_sum / hits : 0.0; }
+  /// That it exists, where the method estimates it; otherwise the mean confidence of its detections.
+  double confidence() const {
+    if (existence) return *existence;
+    return hits > 0 ? confidence_sum / hits : 0.0;
+  }
 };
 
 /// Two tracks turned out to be one object: what `gone` knew besides its position goes to `kept`.

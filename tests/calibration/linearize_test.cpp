@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/calibration/linearize.hpp"
+
+#include <gtest/gtest.h>
+
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/attitude.hpp"
+#include "geoloc/projection/camera_pose.hpp"
+
+namespace geoloc {
+namespace {
+
+struct Regime {
+  const char* name;
+  double height_m;
+  double camera_pitch_deg;
+  EulerAngles attitude_deg;
+  Eigen::Vector3d velocity_in_enu;
+  Eigen::Vector3d turn_rate_deg;  ///< body
+  Eigen::Vector2d pixel;
+};
+
+/// The fix of a pixel when calibration and drift are as given: everything recomputed, nothing linear.
+class ExactFix {
+ public:
+  explicit ExactFix(const Regime& regime) : regime_(regime), projector_({}, CameraIntrinsics{}) {
+    mount_.pitch_deg = regime.camera_pitch_deg;
+  }
+
+  FrameView view(const CalibrationVector& calibration, const NodeVector& drift) const {
+    const double t = -calibration[CalibrationIndex::kLatency];
+    const EulerAngles& a = regime_.attitude_deg;
+    const Eigen::Vector3d rate = regime_.turn_rate_deg * kRadPerDeg;
+    Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
+    if (rate.norm() > 0) turned = Eigen::AngleAxisd(rate.norm() * t, rate.normalized());
+    const Eigen::Quaterniond true_north(Eigen::AngleAxisd(drift[2], Eigen::Vector3d::UnitZ()));
+    FrameView view;
+    view.vehicle.enu_from_body.rotation =
+        enu_from_ned() * true_north *
+        ned_from_body({a.roll_rad * kRadPerDeg, a.pitch_rad * kRadPerDeg, a.yaw_rad * kRadPerDeg}) * turned;
+    view.vehicle.enu_from_body.translation =
+        Eigen::Vector3d(5, -3, regime_.height_m) + t * regime_.velocity_in_enu;
+    view.vehicle.enu_from_body.translation.head<2>() +=
+        drift.head<2>() + calibration.segment<2>(CalibrationIndex::kOffset);
+    view.vehicle.velocity_in_enu = regime_.velocity_in_enu;
+    view.vehicle.angular_velocity_in_body = rate;
+    view.enu_from_camera = enu_from_camera(view.vehicle, mount_, CameraOrientation::kComposed);
+    Calibration{calibration, CalibrationMatrix::Zero()}.apply_to(view.enu_from_camera);
+    return view;
+  }
+
+  GroundFix fix(const FrameView& view) const {
+    return *projector_.project(regime_.pixel, view.enu_from_camera);
+  }
+
+  Eigen::Vector2d position(const CalibrationVector& calibration, const NodeVector& drift) const {
+    return fix(view(calibration, drift)).position_in_enu;
+  }
+
+ private:
+  Regime regime_;
+  CameraMount mount_;
+  Projector projector_;
+};
+
+class JacobianLaws : public ::testing::TestWithParam<Regime> {};
+
+TEST_P(JacobianLaws, AreTheNumericDerivatives) {
+  const ExactFix exact(GetParam());
+  CalibrationVector calibration = CalibrationVector::Zero();
+  const NodeVector drift = NodeVector::Zero();
+  const FrameView view = exact.view(calibration, drift);
+  const FixJacobians jacobians = jacobians_of(exact.fix(view), view, view.enu_from_camera.translation.z());
+  constexpr double kStep = 1e-6;
+  for (int i = 0; i < CalibrationIndex::kSize; ++i) {
+    const CalibrationVector moved = kStep * CalibrationVector::Unit(i);
+    const Eigen::Vector2d slope =
+        (exact.position(calibration + moved, drift) - exact.position(calibration - moved, drift)) /
+        (2 * kStep);
+    EXPECT_LT((slope - jacobians.calibration.col(i)).norm(), 1e-5 * (1.0 + slope.norm()))
+        << "calibration " << i;
+  }
+  for (int i = 0; i < kNodeSize; ++i) {
+    const NodeVector moved = kStep * NodeVector::Unit(i);
+    const Eigen::Vector2d slope =
+        (exact.position(calibration, drift + moved) - exact.position(calibration, drift - moved)) /
+        (2 * kStep);
+    EXPECT_LT((slope - jacobians.node.col(i)).norm(), 1e-5 * (1.0 + slope.norm())) << "drift " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Regimes, JacobianLaws,
+    ::testing::Values(Regime{"nadir", 20, -90, {0, 0, 40}, {3, 4, 0}, {0, 0, 0}, {639.5, 359.5}},
+                      Regime{"corner", 20, -90, {8, -5, 250}, {-5, 1, 0.3}, {10, -20, 5}, {30, 700}},
+                      Regime{"oblique", 60, -45, {5, 3, 120}, {10, -8, -1}, {0, 5, 0}, {900, 500}},
+                      Regime{"grazing", 40, -25, {0, 0, 10}, {15, 0, 0}, {0, 0, 0}, {640, 500}},
+                      Regime{"fast_turn", 25, -90, {30, 0, 0}, {0, 18, 2}, {40, 15, 60}, {200, 200}}),
+    [](const auto& regime) { return std::string(regime.param.name); });
+
+}  // namespace
+}  // namespace geoloc
