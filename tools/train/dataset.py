@@ -13,6 +13,7 @@ INPUT_HEIGHT = 384
 FILL = 114  # grey of the letterbox' bars
 TARGET_SHARE = 0.6  # of the training crops show a target for certain,
 CANDIDATES = 4  # and the others are the one of so many with the most contrast
+CROP_SCALES = (0.75, 1.25)  # a crop's side before it is resized, over the side wanted
 KEPT_FRACTION = 0.4  # a target cut off more than this is no example
 
 
@@ -29,7 +30,9 @@ def letterbox(image: np.ndarray) -> tuple[np.ndarray, float, int, int]:
     size = (round(width * scale), round(height * scale))
     left, top = (INPUT_WIDTH - size[0]) // 2, (INPUT_HEIGHT - size[1]) // 2
     boxed = np.full((INPUT_HEIGHT, INPUT_WIDTH, 3), FILL, np.uint8)
-    boxed[top : top + size[1], left : left + size[0]] = cv2.resize(image, size, interpolation=cv2.INTER_LINEAR)
+    boxed[top : top + size[1], left : left + size[0]] = cv2.resize(
+        image, size, interpolation=cv2.INTER_LINEAR
+    )
     return boxed, scale, left, top
 
 
@@ -62,17 +65,21 @@ def random_window(example: Example, side: int, random: np.random.Generator) -> t
         corner = 0.5 * (box[:2] + box[2:]) + random.uniform(-0.5, 0.5, 2) * side - 0.5 * side
         return int(np.clip(corner[0], 0, width - side)), int(np.clip(corner[1], 0, height - side))
     candidates = random.integers((0, 0), (width - side + 1, height - side + 1), (CANDIDATES, 2))
-    contrast = [example.image[top : top + side : 3, left : left + side : 3, 1].std() for left, top in candidates]
+    contrast = [
+        example.image[top : top + side : 3, left : left + side : 3, 1].std() for left, top in candidates
+    ]
     left, top = candidates[int(np.argmax(contrast))]
     return int(left), int(top)
 
 
 def random_crop(example: Example, size: int, random: np.random.Generator) -> Example:
     """A square of size px out of the example, at a random scale."""
-    side = int(round(size * random.uniform(0.75, 1.25)))
+    side = int(round(size * random.uniform(*CROP_SCALES)))
     left, top = random_window(example, side, random)
     crop = example.image[top : top + side, left : left + side]
-    resized = cv2.resize(crop, (size, size), interpolation=cv2.INTER_AREA if side > size else cv2.INTER_LINEAR)
+    resized = cv2.resize(
+        crop, (size, size), interpolation=cv2.INTER_AREA if side > size else cv2.INTER_LINEAR
+    )
     boxes = (example.boxes - np.float32([left, top, left, top])) * np.float32(size / side)
     return Example(resized, clipped(boxes, size))
 
@@ -88,9 +95,13 @@ def flipped(example: Example, random: np.random.Generator) -> Example:
     """One of the eight ways to lay a square."""
     image, boxes, size = example.image, example.boxes, example.image.shape[0]
     if random.random() < 0.5:
-        image, boxes = image[:, ::-1], np.stack((size - boxes[:, 2], boxes[:, 1], size - boxes[:, 0], boxes[:, 3]), 1)
+        image, boxes = image[:, ::-1], np.stack(
+            (size - boxes[:, 2], boxes[:, 1], size - boxes[:, 0], boxes[:, 3]), 1
+        )
     if random.random() < 0.5:
-        image, boxes = image[::-1], np.stack((boxes[:, 0], size - boxes[:, 3], boxes[:, 2], size - boxes[:, 1]), 1)
+        image, boxes = image[::-1], np.stack(
+            (boxes[:, 0], size - boxes[:, 3], boxes[:, 2], size - boxes[:, 1]), 1
+        )
     if random.random() < 0.5:
         image, boxes = image.transpose(1, 0, 2), boxes[:, [1, 0, 3, 2]]
     return Example(image, boxes)
@@ -107,4 +118,6 @@ def training_batch(
     """Crops as images [B, 3, size, size] in 0..1 and their boxes."""
     crops = [flipped(random_crop(example, size, random), random) for example in examples]
     images = np.stack([relit(crop.image, random) for crop in crops]).astype(np.float32) / 255.0
-    return np.ascontiguousarray(images.transpose(0, 3, 1, 2)), [crop.boxes.astype(np.float32) for crop in crops]
+    return np.ascontiguousarray(images.transpose(0, 3, 1, 2)), [
+        crop.boxes.astype(np.float32) for crop in crops
+    ]

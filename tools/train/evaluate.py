@@ -35,7 +35,9 @@ def suppressed(boxes: np.ndarray, scores: np.ndarray) -> np.ndarray:
     """Greedy non-maximum suppression; returns the kept boxes [K, 4], best first."""
     kept: list[np.ndarray] = []
     for index in np.argsort(-scores):
-        overlaps = intersection_over_union(torch.tensor(boxes[index]), torch.tensor(np.array(kept).reshape(-1, 4)))
+        overlaps = intersection_over_union(
+            torch.tensor(boxes[index]), torch.tensor(np.array(kept).reshape(-1, 4))
+        )
         if not (overlaps > SUPPRESS_OVERLAP).any():
             kept.append(boxes[index])
     return np.array(kept, np.float32).reshape(-1, 4)
@@ -57,7 +59,9 @@ class Counter:
         demanded = [self._is_demanded(box) for box in truth]
         self.demanded += sum(demanded)
         for box in detected:
-            overlaps = [float(intersection_over_union(torch.tensor(box), torch.tensor(truth[i]))) for i in free]
+            overlaps = [
+                float(intersection_over_union(torch.tensor(box), torch.tensor(truth[i]))) for i in free
+            ]
             if not overlaps or max(overlaps) < MATCH_OVERLAP:
                 self.wrong += 1
                 continue
@@ -65,7 +69,9 @@ class Counter:
             if demanded[match]:
                 self.found += 1
                 self.right += 1
-                self.errors.append(FULL_PER_INPUT * 0.5 * (box[:2] + box[2:] - truth[match][:2] - truth[match][2:]))
+                self.errors.append(
+                    FULL_PER_INPUT * 0.5 * (box[:2] + box[2:] - truth[match][:2] - truth[match][2:])
+                )
 
     @staticmethod
     def _is_demanded(box: np.ndarray) -> bool:

@@ -10,7 +10,9 @@ SCORE_WEIGHT = 4.0  # telling targets from look-alikes is harder than boxing the
 REACH = 0.8  # predictors whose centre is this near the target's (in strides, either axis) answer for it
 
 
-def assign(boxes: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+def assign(
+    boxes: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor
+) -> tuple[torch.Tensor, torch.Tensor]:
     """boxes [K, 4] (left, top, right, bottom); returns the responsible cells and the box of each of them."""
     middle = 0.5 * (boxes[:, :2] + boxes[:, 2:])
     size = (boxes[:, 2:] - boxes[:, :2]).amax(1)
@@ -25,7 +27,9 @@ def assign(boxes: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor) ->
 
 def intersection_over_union(a: torch.Tensor, b: torch.Tensor) -> torch.Tensor:
     """Of boxes [..., 4] as left, top, right, bottom, pair by pair."""
-    overlap = (torch.minimum(a[..., 2:], b[..., 2:]) - torch.maximum(a[..., :2], b[..., :2])).clamp(min=0).prod(-1)
+    overlap = (
+        (torch.minimum(a[..., 2:], b[..., 2:]) - torch.maximum(a[..., :2], b[..., :2])).clamp(min=0).prod(-1)
+    )
     area = (a[..., 2:] - a[..., :2]).prod(-1) + (b[..., 2:] - b[..., :2]).prod(-1)
     return overlap / (area - overlap + 1e-6)
 
@@ -59,7 +63,9 @@ def detection_loss(
         # Geo-location uses the centre alone, so the centre is paid for once more, beside the overlap.
         off_centre = (predicted[:, :2] - true_centre).abs() / true_size
         off_size = (torch.log(predicted[:, 2:]) - torch.log(true_size)).abs()
-        box_loss = box_loss + (1.0 - overlap).sum() + 4.0 * off_centre.mean(1).sum() + 0.5 * off_size.mean(1).sum()
+        box_loss = (
+            box_loss + (1.0 - overlap).sum() + 4.0 * off_centre.mean(1).sum() + 0.5 * off_size.mean(1).sum()
+        )
         answers += len(responsible)
     score_loss = functional.binary_cross_entropy_with_logits(scores, wanted, reduction="sum")
     return (SCORE_WEIGHT * score_loss + box_loss) / max(answers, 1)

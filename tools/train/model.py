@@ -48,9 +48,7 @@ class TargetDetector(nn.Module):
             Residual(48),
             Residual(48),
         )
-        self.to_stride_16 = nn.Sequential(
-            convolution(48, 80, 3, 2), Residual(80), Residual(80), Residual(80)
-        )
+        self.to_stride_16 = nn.Sequential(convolution(48, 80, 3, 2), Residual(80), Residual(80), Residual(80))
         self.lateral_8 = convolution(48, neck, 1)
         self.lateral_16 = convolution(80, neck, 1)
         self.enlarge = nn.Upsample(scale_factor=2, mode="nearest")
@@ -71,12 +69,10 @@ class TargetDetector(nn.Module):
 
 
 def cells(height: int, width: int) -> tuple[torch.Tensor, torch.Tensor]:
-    """Centres [2, N] (x, y) and strides [N] of all predictors, in input pixels; the image's left edge is 0."""
+    """Centres [2, N] (x, y) and strides [N] of all predictors, in input pixels from the image's edge."""
     centres, strides = [], []
     for stride in STRIDES:
-        y, x = torch.meshgrid(
-            torch.arange(height // stride), torch.arange(width // stride), indexing="ij"
-        )
+        y, x = torch.meshgrid(torch.arange(height // stride), torch.arange(width // stride), indexing="ij")
         centres.append((torch.stack((x, y)).flatten(1) + 0.5) * stride)
         strides.append(torch.full((centres[-1].shape[1],), float(stride)))
     return torch.cat(centres, 1), torch.cat(strides)

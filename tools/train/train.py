@@ -20,13 +20,16 @@ CROP_PX = 160
 BATCH = 32
 PEAK_RATE = 3e-3
 WARM_UP_STEPS = 100
-THRESHOLDS = (0.25, 0.4, 0.55)  # of confidence, at which the model is judged
+THRESHOLDS = (0.25, 0.4, 0.55, 0.7)  # of confidence, at which the model is judged
 AVERAGE_DECAY = 0.998  # the exported weights are a running mean over the last few hundred steps
 
 
 def rate_at(step: int, steps: int) -> float:
     """Cosine decay after a linear start."""
-    return PEAK_RATE * min(1.0, (step + 1) / WARM_UP_STEPS) * 0.5 * (1.0 + math.cos(math.pi * step / steps)) + 1e-5
+    return (
+        PEAK_RATE * min(1.0, (step + 1) / WARM_UP_STEPS) * 0.5 * (1.0 + math.cos(math.pi * step / steps))
+        + 1e-5
+    )
 
 
 def update_average(average: TargetDetector, model: TargetDetector, step: int) -> None:
@@ -58,7 +61,9 @@ class Training:
     def restore(self, file: Path) -> None:
         state = torch.load(file, weights_only=False)
         if (state["epochs"], state["seed"]) != (self.epochs, self.seed):
-            raise SystemExit(f"{file} belongs to a run with other --epochs or --seed; remove it to start anew")
+            raise SystemExit(
+                f"{file} belongs to a run with other --epochs or --seed; remove it to start anew"
+            )
         for name in ("model", "average", "optimizer"):
             getattr(self, name).load_state_dict(state[name])
         self.epoch = state["epoch"]
@@ -79,7 +84,9 @@ class Training:
             with torch.autocast("cpu", torch.bfloat16, enabled=self.bfloat16):
                 boxes, scores = self.model(torch.from_numpy(images))
             decoded = decode(boxes.float(), centres, strides)
-            loss = detection_loss(decoded, scores.float(), [torch.from_numpy(t) for t in targets], centres, strides)
+            loss = detection_loss(
+                decoded, scores.float(), [torch.from_numpy(t) for t in targets], centres, strides
+            )
             self.optimizer.zero_grad()
             loss.backward()
             torch.nn.utils.clip_grad_norm_(self.model.parameters(), 10.0)
@@ -92,12 +99,18 @@ class Training:
 def parse_arguments() -> argparse.Namespace:
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("--train", type=Path, required=True, help="folder of geoloc_sim --images")
-    arguments.add_argument("--held-back", type=Path, required=True, help="the same with another seed, for judging")
-    arguments.add_argument("--out", type=Path, required=True, help="the .onnx to write; the checkpoint stands beside it")
-    arguments.add_argument("--epochs", type=int, default=30)
+    arguments.add_argument(
+        "--held-back", type=Path, required=True, help="the same with another seed, for judging"
+    )
+    arguments.add_argument(
+        "--out", type=Path, required=True, help="the .onnx to write; the checkpoint stands beside it"
+    )
+    arguments.add_argument("--epochs", type=int, default=24)
     arguments.add_argument("--seed", type=int, default=0)
     arguments.add_argument("--threads", type=int, default=2)
-    arguments.add_argument("--bfloat16", action="store_true", help="faster on processors that have it (avx512_bf16)")
+    arguments.add_argument(
+        "--bfloat16", action="store_true", help="faster on processors that have it (avx512_bf16)"
+    )
     arguments.add_argument("--judge-every", type=int, default=5, help="epochs between two judgements")
     return arguments.parse_args()
 
