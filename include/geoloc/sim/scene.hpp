@@ -30,7 +30,7 @@ struct PlacedObject {
   ObjectKind kind = ObjectKind::kFiducial;
   Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();  ///< of its centre, east, north [m]
   double heading_rad = 0.0;                                   ///< of its forward axis, clockwise from north
-  double size_m = kFiducialSize_m;                             ///< side or diameter; the length of a road line
+  double size_m = kFiducialSize_m;                            ///< side or diameter; the length of a road line
   std::uint32_t look = 0;                                     ///< seed of its wear, colour and variant
 };
 
