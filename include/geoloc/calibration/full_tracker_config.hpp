@@ -14,11 +14,11 @@ struct FullTrackerConfig {
   DriftConfig drift;
 
   // Noise of one look.
-  double sigma_px = 2.0;             ///< of a box's centre, an axis
-  double sigma_attitude_deg = 0.15;  ///< of roll, pitch and yaw from frame to frame
+  double sigma_px = 1.5;            ///< of a box's centre, an axis
+  double sigma_attitude_deg = 0.1;  ///< of roll, pitch and yaw from frame to frame
   double horizontal_accuracy_m =
       0.85;  ///< of the vehicle's position, where the autopilot reports none (radial, 1-sigma)
-  double constant_share = 0.3;  ///< of its variance, what stays constant over a flight; the rest wanders
+  double constant_share = 0.15;  ///< of its variance, what stays constant over a flight; the rest wanders
   double least_offset_sigma_m =
       0.02;                  ///< of the constant position error, an axis, whatever the wandering shows
   double fast_share = 0.25;  ///< of it, what changes from second to second

@@ -7,7 +7,15 @@ namespace geoloc::sim {
 
 /// What a run draws for. Each use has a stream of its own, so that changing one rate leaves every other draw
 /// alone.
-enum class RandomStream : std::uint64_t { kScenario = 1, kMount, kTiming, kDetections, kClutter, kLink, kScene };
+enum class RandomStream : std::uint64_t {
+  kScenario = 1,
+  kMount,
+  kTiming,
+  kDetections,
+  kClutter,
+  kLink,
+  kScene
+};
 
 /// Seed of one stream of a run (splitmix64): neighbouring seeds give unrelated streams.
 constexpr std::uint64_t stream_seed(std::uint64_t seed, RandomStream stream) {
