@@ -31,7 +31,10 @@ std::vector<float> tensor(const std::vector<Candidate>& candidates) {
 
 constexpr ImageSize kPicture{640, 384};
 
-DecodedBoxes decode(const std::vector<Candidate>& candidates, const DetectionConfig& config = {},
+/// The threshold that the scores below are chosen around, whatever the default is.
+const DetectionConfig kThreshold04{0.4, 0.5, 300, 0};
+
+DecodedBoxes decode(const std::vector<Candidate>& candidates, const DetectionConfig& config = kThreshold04,
                     ImageSize picture = kPicture) {
   const std::vector<float> values = tensor(candidates);
   return decode_yolo({values.data(), static_cast<int>(candidates.front().scores.size()),
