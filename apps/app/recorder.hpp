@@ -26,7 +26,6 @@ class Recorder {
   }
 
   std::uint64_t telemetry_records() const { return writer_ ? writer_->telemetry_records() : 0; }
-  bool is_recording() const { return writer_.has_value(); }
   bool has_failed() const { return has_failed_; }
   void finish();
 

@@ -45,6 +45,11 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// Of detection, as counted; never certain either way.
+double counted_probability(double hits, double opportunities) {
+  return std::clamp(hits / opportunities, 0.05, 0.98);
+}
+
 FullTrackerConfig checked(const FullTrackerConfig& config) {
   throw_if_any(config.problems());
   return config;
@@ -324,7 +329,7 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
   const double margin_px = 0.6 * size_px + 2.0 * std::min(sigma_px, size_px) + 2.0 * config_.sigma_px;
   if (!projector.camera().contains(*pixel, margin_px)) return 0.0;
   const double seen_well = std::clamp(size_px / std::max(config_.smallest_object_px, 1e-9) - 1.0, 0.0, 1.0);
-  return seen_well * std::clamp(expected_hits_ / opportunities_, 0.05, 0.98);
+  return seen_well * counted_probability(expected_hits_, opportunities_);
 }
 
 void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
@@ -372,7 +377,7 @@ void FullTracker::refresh(std::size_t k) {
 }
 
 void FullTracker::absorb_matched(HostTime captured_at) {
-  const double found = std::clamp(expected_hits_ / opportunities_, 0.05, 0.98);
+  const double found = counted_probability(expected_hits_, opportunities_);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (track_of_look_[i] == AssignmentSolver::kUnassigned) continue;
     const auto k = static_cast<std::size_t>(track_of_look_[i]);

@@ -13,7 +13,7 @@ Landmark::NodeTerms& Landmark::terms_of(std::uint32_t node, const DriftTimeline&
   if (place != nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_) && place->number == node)
     return *place;
   if (node_count_ == kMaxNodes) {
-    drop(0, drift.node(nodes_[0].number).mean);
+    drop_oldest(drift.node(nodes_[0].number).mean);
     return terms_of(node, drift);
   }
   std::move_backward(place, nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_),
@@ -76,19 +76,15 @@ void Landmark::merge(const Landmark& other, const DriftTimeline& drift) {
 }
 
 void Landmark::freeze(std::uint32_t node, const DriftTimeline& drift) {
-  if (node_count_ > 0 && nodes_[0].number == node) drop(0, drift.node(node).mean);
+  if (node_count_ > 0 && nodes_[0].number == node) drop_oldest(drift.node(node).mean);
 }
 
-void Landmark::drop(std::size_t index, const NodeVector& value) {
-  const NodeTerms& gone = nodes_[index];
+void Landmark::drop_oldest(const NodeVector& value) {
+  const NodeTerms& gone = nodes_[0];
   b_ += gone.B * value;
   g_ -= gone.C_calibration * value;
-  if (index + 1 < node_count_ && nodes_[index + 1].number == gone.number + 1) {
-    nodes_[index + 1].g -= gone.C_next.transpose() * value;
-  }
-  std::move(nodes_.begin() + static_cast<std::ptrdiff_t>(index + 1),
-            nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_),
-            nodes_.begin() + static_cast<std::ptrdiff_t>(index));
+  if (node_count_ > 1 && nodes_[1].number == gone.number + 1) nodes_[1].g -= gone.C_next.transpose() * value;
+  std::move(nodes_.begin() + 1, nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_), nodes_.begin());
   --node_count_;
 }
 

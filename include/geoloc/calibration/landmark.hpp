@@ -66,7 +66,7 @@ class Landmark {
   static constexpr std::size_t kMaxNodes = 16;
 
   NodeTerms& terms_of(std::uint32_t node, const DriftTimeline& drift);
-  void drop(std::size_t index, const NodeVector& value);
+  void drop_oldest(const NodeVector& value);
 
   Eigen::Matrix2d A_ = Eigen::Matrix2d::Zero();
   Eigen::Vector2d b_ = Eigen::Vector2d::Zero();
