@@ -57,7 +57,7 @@ std::string status_line(double elapsed_s, const io::LinkStatus& link, const io::
       "{}, {} without state  {}",
       static_cast<int>(elapsed_s) / 60, static_cast<int>(elapsed_s) % 60, link.attitude_rate_hz,
       link.position_rate_hz, to_string(video.state), video.frames_per_second, to_string(run.time_quality),
-      detection.detect_ms, 1e3 * run.latency_s, session.frames(), session.frames_unusable(),
+      detection.detect_ms.value(), 1e3 * run.latency_s.value(), session.frames(), session.frames_unusable(),
       tracks(session.geolocator()));
 }
 

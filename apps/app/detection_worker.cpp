@@ -7,7 +7,6 @@ namespace geoloc::apps {
 namespace {
 
 constexpr std::size_t kLongestQueue = 64;
-constexpr double kSmoothing = 0.1;
 
 }  // namespace
 
@@ -56,8 +55,7 @@ void DetectionWorker::detect(const io::VideoFrame& frame) {
 
   const std::lock_guard lock(mutex_);
   ++stats_.detected;
-  stats_.detect_ms =
-      stats_.detected == 1 ? took_ms : stats_.detect_ms + kSmoothing * (took_ms - stats_.detect_ms);
+  stats_.detect_ms.add(took_ms);
   if (queue_.size() >= kLongestQueue) {
     queue_.erase(queue_.begin());
     ++stats_.overflowed;

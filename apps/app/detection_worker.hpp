@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/running_mean.hpp"
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/host_clock.hpp"
@@ -32,7 +33,7 @@ class DetectionWorker {
     std::uint64_t damaged = 0;
     std::uint64_t wrong_size = 0;
     std::uint64_t overflowed = 0;    ///< queued results nobody took in time
-    double detect_ms = 0.0;          ///< of one frame, smoothed
+    RunningMean detect_ms;           ///< of one frame
     std::string wrong_size_message;  ///< the latest, for the user
   };
 

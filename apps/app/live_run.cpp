@@ -10,7 +10,6 @@ constexpr auto kTelemetryWait = std::chrono::milliseconds{10};
 constexpr int kMostDatagrams = 256;  // a turn: a flood must not starve the frames
 constexpr std::size_t kMostWaiting = 128;
 constexpr auto kFuture = std::chrono::milliseconds{500};  // clocks disagree a little; more is a wrong clock
-constexpr double kSmoothing = 0.1;
 
 }  // namespace
 
@@ -67,7 +66,7 @@ void LiveRun::process(const DetectedFrame& frame) {
     writer.add_frame({frame.captured_at, frame.detections, recorder_.telemetry_records()});
   });
   if (session_.process({frame.captured_at, frame.detections})) {
-    stats_.latency_s += kSmoothing * (seconds(clock_.now() - frame.captured_at) - stats_.latency_s);
+    stats_.latency_s.add(seconds(clock_.now() - frame.captured_at));
   }
   stats_.time_quality = frame.time_quality;
 }

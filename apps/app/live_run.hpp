@@ -8,6 +8,7 @@
 
 #include "app/detection_worker.hpp"
 #include "app/recorder.hpp"
+#include "app/running_mean.hpp"
 #include "common/session.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
 
@@ -21,7 +22,7 @@ class LiveRun {
     std::uint64_t out_of_order =
         0;  ///< frames captured before one that was processed already, or in the future
     std::uint64_t overflowed = 0;  ///< frames that waited while too many others came
-    double latency_s = 0.0;        ///< from capture to result, smoothed
+    RunningMean latency_s;         ///< from capture to result
     io::TimeQuality time_quality = io::TimeQuality::kArrival;  ///< of the last frame
   };
 

@@ -26,6 +26,11 @@ std::variant<PaperTracker, FullTracker> make_tracker(const GeolocatorConfig& con
   return FullTracker(config.full, config.max_detections);
 }
 
+bool may_be_cut(const Box& box, const CameraIntrinsics& image, double margin_px) {
+  return box.x < margin_px || box.y < margin_px || box.x + box.width > image.width_px - margin_px ||
+         box.y + box.height > image.height_px - margin_px;
+}
+
 /// Total order on what a detection is: whatever order a detector lists them in, they are treated alike.
 bool canonical_order(const Detection& a, const Detection& b) {
   const auto key = [](const Detection& d) {
@@ -39,6 +44,7 @@ bool canonical_order(const Detection& a, const Detection& b) {
 std::vector<std::string> GeolocatorConfig::problems() const {
   Problems found;
   found.require(max_detections >= 1 && max_detections <= 10000, "max_detections must lie in [1, 10000]");
+  found.require(edge_margin_px >= 0.0, "edge_margin_px must be >= 0");
   found.add(camera.problems());
   found.add(state.problems());
   found.add(projector.problems());
@@ -109,6 +115,9 @@ void Geolocator::select(const std::vector<Detection>& detections) {
   for (const Detection& detection : detections) {
     if (!is_usable(detection)) {
       ++counters_.detections_dropped;
+    } else if (config_.edge_margin_px > 0.0 &&
+               may_be_cut(detection.box, config_.camera.intrinsics, config_.edge_margin_px)) {
+      ++counters_.detections_at_edge;
     } else if (selected_.size() < most) {
       selected_.push_back(detection);
     } else {

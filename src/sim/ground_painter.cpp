@@ -8,8 +8,6 @@
 namespace geoloc::sim {
 namespace {
 
-constexpr int kStep = GroundGrid::kStep_px;
-
 /// Turns the patches against the grain, so that the two never repeat together.
 const Eigen::Matrix2f kPatchesFromEnu = Eigen::Rotation2Df(0.58f).toRotationMatrix();
 
@@ -39,7 +37,7 @@ constexpr float kDither[4][4] = {{0.03f, 0.53f, 0.16f, 0.66f},
 
 GroundPainter::GroundPainter(const GroundGrid& grid) {
   const cv::Size nodes(grid.columns(), grid.rows());
-  const cv::Size cells((nodes.width - 1) * kStep, (nodes.height - 1) * kStep);
+  const cv::Size cells((nodes.width - 1) * GroundGrid::kStep_px, (nodes.height - 1) * GroundGrid::kStep_px);
   patches_at_ = {cv::Mat(nodes, CV_16SC2), cv::Mat(nodes, CV_16UC1)};
   grain_at_ = {cv::Mat(cells, CV_16SC2), cv::Mat(cells, CV_16UC1)};
 }
@@ -48,12 +46,12 @@ void GroundPainter::paint(const GroundGrid& grid, const Ground& ground, const Li
   locate_patches(grid, ground.patches);
   cv::remap(ground.patches.image(), patches_, patches_at_.whole, patches_at_.fraction, cv::INTER_LINEAR);
   light_patches(grid, light);
-  cv::resize(patches_, base_, {}, kStep, kStep, cv::INTER_LINEAR);
+  cv::resize(patches_, base_, {}, GroundGrid::kStep_px, GroundGrid::kStep_px, cv::INTER_LINEAR);
   locate_grain(grid, ground.grain);
   cv::remap(ground.grain.image(), grain_, grain_at_.whole, grain_at_.fraction, cv::INTER_LINEAR);
-  const cv::Rect seen_in_base(kStep, kStep, image.cols,
+  const cv::Rect seen_in_base(GroundGrid::kStep_px, GroundGrid::kStep_px, image.cols,
                               image.rows);  // a node's cell reaches half a step each way
-  const cv::Rect seen_in_grain(kStep / 2, kStep / 2, image.cols, image.rows);
+  const cv::Rect seen_in_grain(GroundGrid::kStep_px / 2, GroundGrid::kStep_px / 2, image.cols, image.rows);
   cv::multiply(base_(seen_in_base), grain_(seen_in_grain), image, 1.0 / kGrainUnity);
 }
 
@@ -65,7 +63,8 @@ void GroundPainter::locate_patches(const GroundGrid& grid, const MipAtlas& patch
       const int cell_column = std::min(column, grid.columns() - 2), cell_row = std::min(row, grid.rows() - 2);
       int level = patches.last_level();
       if (grid.cell_on_ground(cell_column, cell_row)) {
-        level = static_cast<int>(level_of(kStep * grid.footprint_m(cell_column, cell_row), patches));
+        level = static_cast<int>(
+            level_of(GroundGrid::kStep_px * grid.footprint_m(cell_column, cell_row), patches));
       }
       const Eigen::Vector2f texel = origin + texel_from_m * grid.node(column, row).offset_m;
       patches.locate(texel.x(), texel.y(), level, patches_at_.whole.at<cv::Vec2s>(row, column),
@@ -100,13 +99,16 @@ void GroundPainter::locate_grain(const GroundGrid& grid, const MipAtlas& grain) 
       const Eigen::Vector2f low_left = origin + texel_from_m * grid.node(cell_column, cell_row + 1).offset_m;
       const Eigen::Vector2f low_right =
           origin + texel_from_m * grid.node(cell_column + 1, cell_row + 1).offset_m;
-      for (int y = 0; y < kStep; ++y) {
-        const float down = (static_cast<float>(y) + 0.5f) / kStep;
+      for (int y = 0; y < GroundGrid::kStep_px; ++y) {
+        const float down = (static_cast<float>(y) + 0.5f) / GroundGrid::kStep_px;
         const Eigen::Vector2f left = top_left + down * (low_left - top_left);
-        const Eigen::Vector2f stride = (top_right + down * (low_right - top_right) - left) / kStep;
-        auto* whole = grain_at_.whole.ptr<cv::Vec2s>(cell_row * kStep + y) + cell_column * kStep;
-        auto* fraction = grain_at_.fraction.ptr<std::uint16_t>(cell_row * kStep + y) + cell_column * kStep;
-        for (int x = 0; x < kStep; ++x) {
+        const Eigen::Vector2f stride =
+            (top_right + down * (low_right - top_right) - left) / GroundGrid::kStep_px;
+        auto* whole = grain_at_.whole.ptr<cv::Vec2s>(cell_row * GroundGrid::kStep_px + y) +
+                      cell_column * GroundGrid::kStep_px;
+        auto* fraction = grain_at_.fraction.ptr<std::uint16_t>(cell_row * GroundGrid::kStep_px + y) +
+                         cell_column * GroundGrid::kStep_px;
+        for (int x = 0; x < GroundGrid::kStep_px; ++x) {
           const float right = static_cast<float>(x) + 0.5f;
           const int rounded = std::min(static_cast<int>(level + kDither[y % 4][x % 4]), grain.last_level());
           grain.locate(left.x() + right * stride.x(), left.y() + right * stride.y(), rounded, whole[x],

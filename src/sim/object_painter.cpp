@@ -9,7 +9,6 @@
 namespace geoloc::sim {
 namespace {
 
-constexpr int kStep = GroundGrid::kStep_px;
 constexpr int kSamples = 3;  // along each side of a pixel
 
 /// Corners of a grid cell in the object's axes [m].
@@ -34,16 +33,18 @@ struct CellInObject {
 Surface mean_surface(const PlacedObject& object, const CellInObject& cell, int x, int y) {
   Surface mean{{0.0f, 0.0f, 0.0f}, 0.0f};
   for (int j = 0; j < kSamples; ++j) {
-    const float down = (static_cast<float>(y) + (static_cast<float>(j) + 0.5f) / kSamples) / kStep;
+    const float down =
+        (static_cast<float>(y) + (static_cast<float>(j) + 0.5f) / kSamples) / GroundGrid::kStep_px;
     for (int i = 0; i < kSamples; ++i) {
-      const float right = (static_cast<float>(x) + (static_cast<float>(i) + 0.5f) / kSamples) / kStep;
+      const float right =
+          (static_cast<float>(x) + (static_cast<float>(i) + 0.5f) / kSamples) / GroundGrid::kStep_px;
       const Surface sample = surface_at(object, cell.at(right, down));
       mean.reflectance += sample.coverage * sample.reflectance;
       mean.coverage += sample.coverage;
     }
   }
-  const Eigen::Vector2f middle =
-      cell.at((static_cast<float>(x) + 0.5f) / kStep, (static_cast<float>(y) + 0.5f) / kStep);
+  const Eigen::Vector2f middle = cell.at((static_cast<float>(x) + 0.5f) / GroundGrid::kStep_px,
+                                         (static_cast<float>(y) + 0.5f) / GroundGrid::kStep_px);
   if (mean.coverage > 0.0f) mean.reflectance *= wear_at(object, middle) / mean.coverage;
   mean.coverage /= kSamples * kSamples;
   return mean;
@@ -51,9 +52,10 @@ Surface mean_surface(const PlacedObject& object, const CellInObject& cell, int x
 
 void paint_cell(const GroundGrid& grid, const Light& light, const PlacedObject& object,
                 const CellInObject& cell, int column, int row, cv::Mat& image) {
-  const int left = kStep * column - kStep / 2, top = kStep * row - kStep / 2;  // of the cell in the image
-  for (int y = std::max(0, -top); y < std::min(kStep, image.rows - top); ++y) {
-    for (int x = std::max(0, -left); x < std::min(kStep, image.cols - left); ++x) {
+  const int left = GroundGrid::kStep_px * column - GroundGrid::kStep_px / 2,
+            top = GroundGrid::kStep_px * row - GroundGrid::kStep_px / 2;  // of the cell in the image
+  for (int y = std::max(0, -top); y < std::min(GroundGrid::kStep_px, image.rows - top); ++y) {
+    for (int x = std::max(0, -left); x < std::min(GroundGrid::kStep_px, image.cols - left); ++x) {
       const Surface surface = mean_surface(object, cell, x, y);
       if (!(surface.coverage > 0.0f)) continue;
       const Eigen::Array3f grey = light.seen(surface.reflectance, grid, column, row);

@@ -115,6 +115,24 @@ TEST(Geolocator, GuessesNothingWithoutState) {
   EXPECT_TRUE(flight.geolocator().tracks().empty());
 }
 
+TEST(Geolocator, DoesNotUseBoxesThatTheImagesEdgeMayHaveCut) {
+  const std::vector<Detection> boxes = {{{0, 100, 30, 30}, 0.9, 0},
+                                        {{100, 1.9, 30, 30}, 0.9, 0},
+                                        {{1250, 300, 30, 30}, 0.9, 0},
+                                        {{500, 689, 30, 30}, 0.9, 0},
+                                        {{1247, 687.5, 30, 30}, 0.9, 0}};
+  for (const double edge_margin_px : {2.0, 0.0}) {
+    GeolocatorConfig config;
+    config.edge_margin_px = edge_margin_px;
+    Flight flight(config);
+    FrameDetections frame = flight.frame(1.0);
+    frame.detections = boxes;
+    flight.geolocator().process(frame);
+    EXPECT_EQ(flight.geolocator().counters().detections_at_edge, edge_margin_px > 0.0 ? 4U : 0U);
+    EXPECT_EQ(flight.geolocator().located().size(), edge_margin_px > 0.0 ? 1U : 5U);
+  }
+}
+
 TEST(Geolocator, CountsDetectionsItCannotUse) {
   GeolocatorConfig config;
   config.max_detections = 2;

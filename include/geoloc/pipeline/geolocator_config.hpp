@@ -24,6 +24,9 @@ struct GeolocatorConfig {
   Method method = Method::kFull;
   CameraOrientation camera_orientation = CameraOrientation::kComposed;
   int max_detections = 256;  ///< a frame; of more, the most confident are used
+  /// A box that comes nearer to the image's edge may be cut by it, so that its centre is not the object's;
+  /// 0 uses all.
+  double edge_margin_px = 2.0;
   CameraConfig camera;
   StateConfig state;
   ProjectorConfig projector;

@@ -99,6 +99,8 @@ void visit_fields(Visitor& v, GeolocatorConfig& config) {
   v.field("camera_orientation", config.camera_orientation,
           "composed, or added_angles as in the paper's eq. 6 (wrong when the vehicle tilts)");
   v.field("max_detections", config.max_detections, "a frame; of more, the most confident");
+  v.field("edge_margin_px", config.edge_margin_px,
+          "px, boxes nearer to the image's edge are not used; 0: all are");
   v.section("state", config.state);
   v.section("projector", config.projector);
   v.section("paper", config.paper);

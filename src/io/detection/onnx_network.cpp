@@ -7,13 +7,13 @@
 #include <stdexcept>
 
 #include "geoloc/io/detection/onnx_metadata.hpp"
+#include "geoloc/io/detection/yolo_decode.hpp"
 
 namespace geoloc::io {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 2'000'000'000;  // protobuf's own limit is 2 GiB
 constexpr std::int64_t kLongestSide = 8192;
-constexpr int kBoxValues = 4;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& fault) {
   throw std::runtime_error(file.string() + ": " + fault);
@@ -120,8 +120,8 @@ void check_output(const std::filesystem::path& file, OnnxNetwork& network, const
   }
   const std::vector<int> shape = output_shape(file, network, metadata);
   const bool has_names = network.class_names.has_value();
-  const std::size_t rows = has_names ? kBoxValues + network.class_names->size() : 0;
-  const bool fits = shape.size() == 3 && shape[0] == 1 && shape[1] > kBoxValues &&
+  const std::size_t rows = has_names ? YoloOutput::kBoxRows + network.class_names->size() : 0;
+  const bool fits = shape.size() == 3 && shape[0] == 1 && shape[1] > YoloOutput::kBoxRows &&
                     (has_names ? static_cast<std::size_t>(shape[1]) == rows : shape[1] < shape[2]);
   if (!fits) {
     fail(file, "its output is " + shape_text({shape.begin(), shape.end()}) + ", not [1, " +
@@ -130,7 +130,7 @@ void check_output(const std::filesystem::path& file, OnnxNetwork& network, const
                    "models for "
                    "segmentation, pose or rotated boxes are not supported");
   }
-  network.classes = shape[1] - kBoxValues;
+  network.classes = shape[1] - YoloOutput::kBoxRows;
   network.candidates = shape[2];
 }
 

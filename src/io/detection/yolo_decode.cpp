@@ -10,7 +10,6 @@ namespace {
 
 /// Suppression compares pairs, so a network gone wrong must not give it tens of thousands of boxes.
 constexpr std::size_t kMaxCandidates = 2000;
-constexpr int kBoxValues = 4;
 /// Rounding in a network may lift a sigmoid over 1 by this much.
 constexpr double kScoreTolerance = 1e-3;
 
@@ -36,7 +35,7 @@ Score best_score(const YoloOutput& output, int candidate) {
   const Values values{output};
   Score best;
   for (int class_id = 0; class_id < output.classes; ++class_id) {
-    const double value = values(kBoxValues + class_id, candidate);
+    const double value = values(YoloOutput::kBoxRows + class_id, candidate);
     if (value > best.value) best = {value, class_id};  // false for NaN
   }
   return best;

@@ -14,6 +14,8 @@ namespace geoloc::io {
 /// candidate: centre x, centre y, width, height in pixels of the network's input (continuous edges), then a
 /// score in 0..1 for each class.
 struct YoloOutput {
+  static constexpr int kBoxRows = 4;
+
   const float* values = nullptr;
   int classes = 0;
   int candidates = 0;
