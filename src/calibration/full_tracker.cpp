@@ -15,15 +15,13 @@ using Index = CalibrationIndex;
 
 /// Frames at the start of a flight after each of which the head is solved: it learns most then.
 constexpr int kEagerFrames = 100;
-/// Association: assignment and the frame's common shift are found in turns.
-constexpr int kRounds = 3;
 /// Looks that make a track worth merging.
 constexpr int kMergeHits = 3;
 /// What two tracks of one object may differ by beyond their stated noise: its looks differ with the
 /// direction.
 constexpr double kSigmaSameObject_m = 0.15;
 /// The wandering is learnt now and then: it costs a solution, and changes slowly.
-constexpr int kSolutionsPerLesson = 5;
+constexpr int kSolutionsPerLesson = 2;
 /// Bounds of what the reported accuracy is believed to be wrong by.
 constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
 /// What the assumed detection probability counts for against observed ones.
@@ -33,11 +31,6 @@ constexpr double kMostOpportunities = 2000.0;
 
 /// The offset cancels between a look and a track that looks made.
 constexpr int kRelative = Index::kOffset;
-
-double spread(const Landmark::CalibrationRow& row, const CalibrationMatrix& covariance) {
-  const auto relative = row.leftCols<kRelative>();
-  return (relative * covariance.topLeftCorner<kRelative, kRelative>() * relative.transpose()).trace();
-}
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -64,6 +57,7 @@ std::vector<std::string> FullTrackerConfig::problems() const {
   found.require(sigma_px > 0.0 && sigma_px <= 1000.0, "full.sigma_px must lie in (0, 1000]");
   found.require(sigma_attitude_deg > 0.0 && sigma_attitude_deg <= 30.0,
                 "full.sigma_attitude_deg must lie in (0, 30]");
+  found.require(sigma_time_s >= 0.0 && sigma_time_s <= 1.0, "full.sigma_time_s must lie in [0, 1]");
   found.require(horizontal_accuracy_m > 0.0 && horizontal_accuracy_m <= 1000.0,
                 "full.horizontal_accuracy_m must lie in (0, 1000]");
   found.require(least_offset_sigma_m >= 0.0 && least_offset_sigma_m <= 1000.0,
@@ -77,6 +71,7 @@ std::vector<std::string> FullTrackerConfig::problems() const {
   found.require(fast_time_constant_s >= 0.0 && fast_time_constant_s <= 100.0,
                 "full.fast_time_constant_s must lie in [0, 100]");
   found.require(gate > 0.0 && gate <= 1000.0, "full.gate must lie in (0, 1000]");
+  found.require(ambiguity >= 0.0 && ambiguity <= 1000.0, "full.ambiguity must lie in [0, 1000]");
   found.require(class_mismatch_cost >= 0.0, "full.class_mismatch_cost must be >= 0");
   found.require(duplicate_share >= 0.0 && duplicate_share <= 1.0, "full.duplicate_share must lie in [0, 1]");
   for (const double probability :
@@ -99,6 +94,7 @@ FullTracker::FullTracker(const FullTrackerConfig& config, int max_detections)
       drift_(config.drift),
       solver_(config.prior, config.drift.max_nodes),
       reported_accuracy_m_(config.horizontal_accuracy_m),
+      association_(max_detections, config.max_tracks),
       expected_hits_(config.detection_probability * kPriorOpportunities),
       opportunities_(kPriorOpportunities) {
   const auto tracks = static_cast<std::size_t>(config.max_tracks);
@@ -108,14 +104,11 @@ FullTracker::FullTracker(const FullTrackerConfig& config, int max_detections)
   landmarks_.reserve(tracks);
   free_landmarks_.reserve(tracks);
   all_landmarks_.reserve(tracks);
-  candidates_.reserve(tracks);
-  look_of_track_.reserve(tracks);
+  is_seen_.reserve(tracks);
+  is_in_doubt_.reserve(tracks);
   detection_probability_of_track_.reserve(tracks);
   looks_.reserve(looks);
-  track_of_look_.reserve(looks);
   median_scratch_.reserve(looks);
-  costs_.resize(max_detections, config.max_tracks);
-  assignment_.reserve(max_detections, config.max_tracks);
   calibration_.mean = solver_.prior_mean();
   calibration_.covariance = solver_.prior_sigma(sigma_offset_m()).array().square().matrix().asDiagonal();
 }
@@ -146,9 +139,9 @@ void FullTracker::update(const std::vector<LocatedDetection>& detections, const 
   make_looks(detections, projector, view);
   associate();
   weigh_missed(projector, view);
-  note_same_frame_evidence();
   absorb_matched(view.captured_at_host);
   start_tentative(view.captured_at_host);
+  note_same_frame_evidence();
   remove_improbable();
   solve_if_due(view.vehicle.time);
 }
@@ -162,6 +155,7 @@ void FullTracker::begin_frame(const FrameView& view) {
     if (pause_s > 0.0) noise_correlation_ = std::max(1.0, 2.0 * config_.fast_time_constant_s / pause_s);
   }
   previous_frame_ = view.vehicle.time;
+  now_ = view.vehicle.time;
   span_ = drift_.cover(view.vehicle.time, reported_sigma_m());
   while (drift_.size() > config_.drift.max_nodes) {
     for (const Estimate& estimate : estimates_) landmarks_[estimate.landmark].freeze(drift_.begin(), drift_);
@@ -174,6 +168,7 @@ void FullTracker::begin_frame(const FrameView& view) {
 void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, const Projector& projector,
                              const FrameView& view) {
   looks_.clear();
+  frame_noise_.setZero();
   const double height_m =
       view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const double attitude_variance = std::pow(config_.sigma_attitude_deg * kRadPerDeg, 2);
@@ -187,7 +182,10 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
   for (const LocatedDetection& located : detections) {
     const FixJacobians jacobians = jacobians_of(located.fix, view, height_m);
     const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
+    const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
     const Eigen::Matrix2d pixel_noise = located.fix.covariance(config_.sigma_px);
+    const Eigen::Matrix2d time_noise =
+        std::pow(config_.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose();
     const Eigen::Matrix2d frame_noise =
         attitude_variance * turn * turn.transpose() + fast_variance * Eigen::Matrix2d::Identity();
     const double ground_per_pixel_m2 = std::abs(located.fix.ground_from_pixel.determinant());
@@ -197,17 +195,22 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
     look.observation.calibration_jacobian = jacobians.calibration;
     look.observation.node_jacobian = jacobians.node;
     look.observation.span = span_;
-    look.observation.information = (pixel_noise + noise_correlation_ * frame_noise).inverse();
+    look.observation.information = (pixel_noise + time_noise + noise_correlation_ * frame_noise).inverse();
     look.position = located.fix.position_in_enu + calibration_.offset_m() + jacobians.node * drift_now_;
-    look.gate_covariance = pixel_noise + frame_noise + solver_.newest_node_covariance().topLeftCorner<2, 2>();
-    look.spread = spread(jacobians.calibration, calibration_.covariance);
+    look.pixel_noise = pixel_noise;
+    look.jacobian << jacobians.calibration.leftCols<kRelative>(), jacobians.node, Eigen::Matrix2d::Identity(),
+        ground_velocity;
+    look.spread = spread(look.jacobian);
     look.clutter_density =
         config_.clutter_per_frame / (ground_per_pixel_m2 * camera.width_px * camera.height_px);
     look.size_m =
         std::sqrt(ground_per_pixel_m2) * std::min(located.detection.box.width, located.detection.box.height);
     look.detection = &located.detection;
-    if (!is_duplicate(look)) looks_.push_back(look);
+    if (is_duplicate(look)) continue;
+    looks_.push_back(look);
+    frame_noise_ += frame_noise;
   }
+  if (!looks_.empty()) frame_noise_ /= static_cast<double>(looks_.size());
 }
 
 /// A detector that fires twice on one object: the more confident box came first.
@@ -219,94 +222,116 @@ bool FullTracker::is_duplicate(const Look& look) const {
   });
 }
 
-std::optional<Eigen::Matrix2d> FullTracker::innovation_covariance(const Look& look, const Estimate& estimate,
-                                                                  const Eigen::Vector2d& residual) const {
-  const double bound =
-      look.gate_covariance.trace() + estimate.own_covariance.trace() +
-      2.0 * (look.spread + estimate.gain_spread);  // tr((a-b) P (a-b)') <= 2 (tr a P a' + tr b P b')
-  if (!(residual.squaredNorm() < config_.gate * bound)) return std::nullopt;
-  const auto difference =
-      (look.observation.calibration_jacobian - estimate.gain).leftCols<kRelative>().eval();
-  return look.gate_covariance + estimate.own_covariance +
-         difference * calibration_.covariance.topLeftCorner<kRelative, kRelative>() * difference.transpose();
+/// What the looks of this frame may be off by together.
+SharedError::Matrix FullTracker::shared_prior() const {
+  SharedError::Matrix prior = SharedError::Matrix::Zero();
+  prior.block<kRelative, kRelative>(SharedError::kCalibration, SharedError::kCalibration) =
+      calibration_.covariance.topLeftCorner<kRelative, kRelative>();
+  prior.block<kNodeSize, kNodeSize>(SharedError::kDrift, SharedError::kDrift) =
+      solver_.newest_node_covariance();
+  prior.block<2, 2>(SharedError::kFrame, SharedError::kFrame) = frame_noise_;
+  prior(SharedError::kTime, SharedError::kTime) = std::pow(config_.sigma_time_s, 2);
+  return prior;
 }
 
-void FullTracker::fill_costs(const Eigen::Vector2d& shift) {
-  const auto rows = static_cast<Eigen::Index>(looks_.size());
-  candidates_.clear();
+double FullTracker::spread(const SharedError::Row& jacobian) const {
+  const auto calibration = jacobian.middleCols<kRelative>(SharedError::kCalibration);
+  const auto drift = jacobian.middleCols<kNodeSize>(SharedError::kDrift);
+  return (calibration * calibration_.covariance.topLeftCorner<kRelative, kRelative>() *
+          calibration.transpose())
+             .trace() +
+         (drift * solver_.newest_node_covariance() * drift.transpose()).trace();
+}
+
+/// All tracks that the look may show. Far ones are told by a bound: tr((a-b) P (a-b)') <= 2 (tr a P a' + tr b
+/// P b').
+void FullTracker::add_pairings(int look_index) {
+  const Look& look = looks_[static_cast<std::size_t>(look_index)];
+  const double time_bound =
+      std::pow(config_.sigma_time_s, 2) * look.jacobian.col(SharedError::kTime).squaredNorm();
+  const double look_bound = look.pixel_noise.trace() + frame_noise_.trace() + time_bound + 2.0 * look.spread;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    const auto column = static_cast<Eigen::Index>(candidates_.size());
-    bool within_gate = false;
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const Look& look = looks_[static_cast<std::size_t>(i)];
-      const Eigen::Vector2d residual = look.position - shift - tracks_[k].position_in_enu.mean;
-      const auto covariance = innovation_covariance(look, estimates_[k], residual);
-      costs_(i, column) = config_.gate;
-      if (!covariance) continue;
-      costs_(i, column) = mahalanobis_squared(residual, *covariance);
-      if (look.detection->class_id != tracks_[k].class_id()) costs_(i, column) += config_.class_mismatch_cost;
-      within_gate = within_gate || costs_(i, column) < config_.gate;
-    }
-    if (within_gate) candidates_.push_back(k);  // otherwise the next track takes this column
+    const Estimate& estimate = estimates_[k];
+    const Eigen::Vector2d residual = look.position - tracks_[k].position_in_enu.mean;
+    const double bound = look_bound + estimate.own_covariance.trace() + 2.0 * estimate.gain_spread;
+    if (!(residual.squaredNorm() < config_.gate * bound)) continue;
+    association_.add(pairing(look_index, static_cast<int>(k)));
   }
+}
+
+/// Frames within a second share most of their noise: it cancels between a look and a track that was seen just
+/// now, and a track seen for a short time only has it whole.
+Pairing FullTracker::pairing(int look_index, int track_index) const {
+  const Look& look = looks_[static_cast<std::size_t>(look_index)];
+  const Track& track = tracks_[static_cast<std::size_t>(track_index)];
+  const Estimate& estimate = estimates_[static_cast<std::size_t>(track_index)];
+  const double share = noise_share(track);
+  const double pause_s = seconds(now_ - estimate.last_look);
+  const double fresh = 1.0 - share * std::exp(-pause_s / std::max(config_.fast_time_constant_s, 1e-3));
+
+  Pairing pairing;
+  pairing.look = look_index;
+  pairing.track = track_index;
+  pairing.residual = look.position - track.position_in_enu.mean;
+  pairing.jacobian = look.jacobian - estimate.gain;
+  pairing.jacobian.middleCols<2>(SharedError::kFrame) *= std::sqrt(fresh);
+  pairing.own_covariance =
+      look.pixel_noise + estimate.pixel_information.inverse() + fresh * share * frame_noise_;
+  pairing.penalty = look.detection->class_id == track.class_id() ? 0.0 : config_.class_mismatch_cost;
+  return pairing;
 }
 
 /// Median of the residuals: what all looks of this frame share.
 Eigen::Vector2d FullTracker::common_shift() {
-  Eigen::Vector2d shift;
+  Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int axis = 0; axis < 2; ++axis) {
     median_scratch_.clear();
     for (std::size_t i = 0; i < looks_.size(); ++i) {
-      if (track_of_look_[i] == AssignmentSolver::kUnassigned) continue;
-      const Track& track = tracks_[static_cast<std::size_t>(track_of_look_[i])];
-      median_scratch_.push_back(looks_[i].position[axis] - track.position_in_enu.mean[axis]);
+      const int track = (*matches_)[i].track;
+      if (track == JointAssociation::kNone) continue;
+      median_scratch_.push_back(looks_[i].position[axis] -
+                                tracks_[static_cast<std::size_t>(track)].position_in_enu.mean[axis]);
     }
-    shift[axis] = median(median_scratch_);
+    if (median_scratch_.size() >= 2) shift[axis] = median(median_scratch_);
   }
   return shift;
 }
 
 void FullTracker::associate() {
-  shift_.setZero();
-  const auto rows = static_cast<Eigen::Index>(looks_.size());
-  for (int round = 0; round < kRounds; ++round) {
-    fill_costs(shift_);
-    const auto& column_of_row = assignment_.solve(
-        costs_.topLeftCorner(rows, static_cast<Eigen::Index>(candidates_.size())), config_.gate);
-    track_of_look_.assign(looks_.size(), AssignmentSolver::kUnassigned);
-    int pairs = 0;
-    for (std::size_t i = 0; i < looks_.size(); ++i) {
-      if (column_of_row[i] == AssignmentSolver::kUnassigned) continue;
-      track_of_look_[i] = static_cast<int>(candidates_[static_cast<std::size_t>(column_of_row[i])]);
-      ++pairs;
-    }
-    if (pairs < 2) break;
-    const Eigen::Vector2d shift = common_shift();
-    const bool is_settled = (shift - shift_).norm() < 0.02;  // far below what tells objects apart
-    shift_ = shift;
-    if (is_settled) break;
-  }
-  look_of_track_.assign(tracks_.size(), AssignmentSolver::kUnassigned);
+  association_.begin(looks_.size(), shared_prior(), config_.gate, config_.ambiguity);
+  for (std::size_t i = 0; i < looks_.size(); ++i) add_pairings(static_cast<int>(i));
+  matches_ = &association_.solve();
+  shift_ = common_shift();
+  is_seen_.assign(tracks_.size(), false);
+  is_in_doubt_.assign(tracks_.size(), false);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (track_of_look_[i] == AssignmentSolver::kUnassigned) continue;
-    look_of_track_[static_cast<std::size_t>(track_of_look_[i])] = static_cast<int>(i);
+    if (is_matched(i)) is_seen_[static_cast<std::size_t>((*matches_)[i].track)] = true;
+  }
+  for (const Pairing& pairing : association_.pairings()) {
+    if ((*matches_)[static_cast<std::size_t>(pairing.look)].is_ambiguous)
+      is_in_doubt_[static_cast<std::size_t>(pairing.track)] = true;
   }
 }
 
+/// Whether the look shows a track, and no other may be meant.
+bool FullTracker::is_matched(std::size_t look) const {
+  const JointAssociation::Match& match = (*matches_)[look];
+  return match.track != JointAssociation::kNone && !match.is_ambiguous;
+}
+
+/// Two tracks that two looks of one frame made, or were matched to, are two objects.
 void FullTracker::note_same_frame_evidence() {
   const double reach_m = 2.0 * config_.merge_radius_m;
-  for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (track_of_look_[i] == AssignmentSolver::kUnassigned) continue;
-    const auto matched = static_cast<std::size_t>(track_of_look_[i]);
+  for (std::size_t seen = 0; seen < tracks_.size(); ++seen) {
+    if (!is_seen_[seen]) continue;
     for (std::size_t other = 0; other < tracks_.size(); ++other) {
-      const Eigen::Vector2d apart =
-          tracks_[other].position_in_enu.mean - tracks_[matched].position_in_enu.mean;
-      if (other == matched || apart.squaredNorm() > reach_m * reach_m) continue;
-      if (look_of_track_[other] != AssignmentSolver::kUnassigned) {
-        estimates_[matched].neighbours.seen_apart(tracks_[other].id);
+      const Eigen::Vector2d apart = tracks_[other].position_in_enu.mean - tracks_[seen].position_in_enu.mean;
+      if (other == seen || apart.squaredNorm() > reach_m * reach_m) continue;
+      if (is_seen_[other]) {
+        estimates_[seen].neighbours.seen_apart(tracks_[other].id);
       } else if (detection_probability_of_track_[other] > 0.0) {
-        estimates_[matched].neighbours.seen_as_one(tracks_[other].id);
-        estimates_[other].neighbours.seen_as_one(tracks_[matched].id);
+        estimates_[seen].neighbours.seen_as_one(tracks_[other].id);
+        estimates_[other].neighbours.seen_as_one(tracks_[seen].id);
       }
     }
   }
@@ -335,18 +360,19 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
 void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
   detection_probability_of_track_.assign(tracks_.size(), 0.0);
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    const bool is_matched = look_of_track_[k] != AssignmentSolver::kUnassigned;
-    if (is_matched && tracks_[k].status != TrackStatus::kConfirmed) continue;
+    if (is_in_doubt_[k]) continue;
+    const bool is_seen = is_seen_[k];
+    if (is_seen && tracks_[k].status != TrackStatus::kConfirmed) continue;
     const double probability = detection_probability(k, projector, view);
     if (probability <= 0.0) continue;
     detection_probability_of_track_[k] = probability;
-    if (!is_matched) {
+    if (!is_seen) {
       estimates_[k].existence.miss(probability);
       ++tracks_[k].penalty;
     }
     if (tracks_[k].status == TrackStatus::kConfirmed) {
       opportunities_ += 1.0;
-      expected_hits_ += is_matched ? 1.0 : 0.0;
+      expected_hits_ += is_seen ? 1.0 : 0.0;
     }
   }
   if (opportunities_ > kMostOpportunities) {
@@ -359,6 +385,8 @@ void FullTracker::absorb(std::size_t k, const Look& look) {
   Track& track = tracks_[k];
   Estimate& estimate = estimates_[k];
   landmarks_[estimate.landmark].add(look.observation, drift_);
+  estimate.pixel_information += look.pixel_noise.inverse();
+  estimate.last_look = now_;
   estimate.size_m += (look.size_m - estimate.size_m) / (track.hits + 1);
   ++track.hits;
   track.confidence_sum += look.detection->confidence;
@@ -366,29 +394,37 @@ void FullTracker::absorb(std::size_t k, const Look& look) {
   refresh(k);
 }
 
+/// Share of a track's sums that comes from the drift nodes of this moment.
+Eigen::Matrix<double, 2, kNodeSize> FullTracker::recent_drift(const Landmark& landmark) const {
+  Eigen::Matrix<double, 2, kNodeSize> sum = Eigen::Matrix<double, 2, kNodeSize>::Zero();
+  for (const Landmark::NodeTerms& terms : landmark) {
+    if (terms.number >= span_.first) sum += terms.B;
+  }
+  return sum;
+}
+
 /// Position and its derivatives from the sums.
 void FullTracker::refresh(std::size_t k) {
   Estimate& estimate = estimates_[k];
   const Landmark& landmark = landmarks_[estimate.landmark];
   estimate.own_covariance = landmark.A().inverse();
-  estimate.gain = estimate.own_covariance * landmark.B();
-  estimate.gain_spread = spread(estimate.gain, calibration_.covariance);
+  estimate.gain.leftCols<kRelative>() = estimate.own_covariance * landmark.B().leftCols<kRelative>();
+  estimate.gain.middleCols<kNodeSize>(SharedError::kDrift) = estimate.own_covariance * recent_drift(landmark);
+  estimate.gain_spread = spread(estimate.gain);
   tracks_[k].position_in_enu.mean = landmark.position(calibration_.mean, drift_);
 }
 
 void FullTracker::absorb_matched(HostTime captured_at) {
   const double found = counted_probability(expected_hits_, opportunities_);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (track_of_look_[i] == AssignmentSolver::kUnassigned) continue;
-    const auto k = static_cast<std::size_t>(track_of_look_[i]);
-    const Look& look = looks_[i];
-    const Eigen::Vector2d residual = look.position - shift_ - tracks_[k].position_in_enu.mean;
-    const auto covariance = innovation_covariance(look, estimates_[k], residual);
-    if (!covariance) continue;
-    const double likelihood = std::exp(-0.5 * mahalanobis_squared(residual, *covariance)) /
-                              (2.0 * kPi * std::sqrt(covariance->determinant()));
-    estimates_[k].existence.hit(found, likelihood, look.clutter_density);
-    absorb(k, look);
+    if (!is_matched(i)) continue;
+    const JointAssociation::Match& match = (*matches_)[i];
+    const auto k = static_cast<std::size_t>(match.track);
+    const Eigen::Matrix2d& covariance = match.innovation_covariance;
+    const double likelihood = std::exp(-0.5 * mahalanobis_squared(match.innovation, covariance)) /
+                              (2.0 * kPi * std::sqrt(covariance.determinant()));
+    estimates_[k].existence.hit(found, likelihood, looks_[i].clutter_density);
+    absorb(k, looks_[i]);
     tracks_[k].last_seen = captured_at;
     tracks_[k].penalty = std::max(0, tracks_[k].penalty - 1);
     if (estimates_[k].existence.probability() >= config_.confirm_probability) {
@@ -399,7 +435,7 @@ void FullTracker::absorb_matched(HostTime captured_at) {
 
 void FullTracker::start_tentative(HostTime captured_at) {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (track_of_look_[i] != AssignmentSolver::kUnassigned) continue;
+    if ((*matches_)[i].track != JointAssociation::kNone || (*matches_)[i].is_ambiguous) continue;
     if (tracks_.size() >= static_cast<std::size_t>(config_.max_tracks)) {
       ++counters_.refused;
       continue;
@@ -419,9 +455,11 @@ void FullTracker::start_tentative(HostTime captured_at) {
     track.first_seen = track.last_seen = captured_at;
     tracks_.push_back(track);
     estimates_.push_back(estimate);
+    is_seen_.push_back(true);
+    detection_probability_of_track_.push_back(0.0);
     absorb(tracks_.size() - 1, looks_[i]);
     tracks_.back().position_in_enu.covariance =
-        looks_[i].gate_covariance + looks_[i].spread * Eigen::Matrix2d::Identity();
+        looks_[i].pixel_noise + frame_noise_ + looks_[i].spread * Eigen::Matrix2d::Identity();
     ++counters_.created;
   }
 }
@@ -463,32 +501,55 @@ void FullTracker::learn_wandering() {
   if (wandering) drift_.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
 }
 
+/// Of the difference of two tracks. Their own noise is that of association: the sums count the noise of each
+/// frame as often as frames repeat it, which is too much for tracks that the same frames made.
+Eigen::Matrix2d FullTracker::covariance_of_difference(std::size_t a, std::size_t b) const {
+  const Estimate &first = estimates_[a], &second = estimates_[b];
+  const double pause_s = std::abs(seconds(first.last_look - second.last_look));
+  const double fresh = 1.0 - std::exp(-pause_s / std::max(config_.fast_time_constant_s, 1e-3));
+  const double shares = noise_share(tracks_[a]) + noise_share(tracks_[b]);
+  return solver_.covariance_of_difference(landmarks_[first.landmark], landmarks_[second.landmark], drift_) -
+         first.own_covariance - second.own_covariance + first.pixel_information.inverse() +
+         second.pixel_information.inverse() + fresh * shares * frame_noise_ +
+         2.0 * kSigmaSameObject_m * kSigmaSameObject_m * Eigen::Matrix2d::Identity();
+}
+
+/// What the frames' common noise leaves in a track: all of it, until it was seen for longer than that lasts.
+double FullTracker::noise_share(const Track& track) const {
+  return std::min(1.0, noise_correlation_ / track.hits);
+}
+
+/// Perhaps one object: near each other, known well enough to tell, and never seen side by side.
+bool FullTracker::may_be_one(std::size_t a, std::size_t b) const {
+  const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
+  return apart.squaredNorm() <= config_.merge_radius_m * config_.merge_radius_m &&
+         std::min(tracks_[a].hits, tracks_[b].hits) >= kMergeHits &&
+         !estimates_[a].neighbours.are_apart(tracks_[b].id) &&
+         mahalanobis_squared(apart, covariance_of_difference(a, b)) <= config_.merge_gate;
+}
+
+/// All that is known of track b goes to track a.
+void FullTracker::merge(std::size_t a, std::size_t b) {
+  landmarks_[estimates_[a].landmark].merge(landmarks_[estimates_[b].landmark], drift_);
+  estimates_[a].pixel_information += estimates_[b].pixel_information;
+  estimates_[a].last_look = std::max(estimates_[a].last_look, estimates_[b].last_look);
+  estimates_[a].existence.merge(estimates_[b].existence);
+  estimates_[a].neighbours.merge(estimates_[b].neighbours);
+  for (Estimate& estimate : estimates_) estimate.neighbours.rename(tracks_[b].id, tracks_[a].id);
+  merge_records(tracks_[a], tracks_[b]);
+  remove(b);
+  refresh(a);
+  ++counters_.merged;
+}
+
 void FullTracker::merge_compatible() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = a + 1; b < tracks_.size();) {
-      const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
-      const bool is_candidate = apart.squaredNorm() <= config_.merge_radius_m * config_.merge_radius_m &&
-                                std::min(tracks_[a].hits, tracks_[b].hits) >= kMergeHits &&
-                                !estimates_[a].neighbours.are_apart(tracks_[b].id);
-      Landmark& landmark_a = landmarks_[estimates_[a].landmark];
-      const Landmark& landmark_b = landmarks_[estimates_[b].landmark];
-      if (!is_candidate ||
-          mahalanobis_squared(apart, solver_.covariance_of_difference(landmark_a, landmark_b, drift_) +
-                                         2.0 * kSigmaSameObject_m * kSigmaSameObject_m *
-                                             Eigen::Matrix2d::Identity()) > config_.merge_gate) {
+      if (may_be_one(a, b)) {
+        merge(a, b);
+      } else {
         ++b;
-        continue;
       }
-      landmark_a.merge(landmark_b, drift_);
-      Track& kept = tracks_[a];
-      const Track& gone = tracks_[b];
-      estimates_[a].existence.merge(estimates_[b].existence);
-      estimates_[a].neighbours.merge(estimates_[b].neighbours);
-      for (Estimate& estimate : estimates_) estimate.neighbours.rename(gone.id, kept.id);
-      merge_records(kept, gone);
-      remove(b);
-      refresh(a);
-      ++counters_.merged;
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "geoloc/geometry/angles.hpp"
 #include "support/allocation_counter.hpp"
@@ -79,6 +80,49 @@ TEST(Geolocator, FindsEveryObjectWhereItIs) {
     EXPECT_LT((position - nearest).norm(), 1e-3);
   }
   EXPECT_GE(confirmed, 3 * 18);
+}
+
+TEST(Geolocator, KeepsTwoObjectsHalfAMetreApartWhereBothWereSeenAtOnce) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    Flight flight;
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise_px(0.0, 1.5);
+    std::bernoulli_distribution is_missed(0.2);
+    int pairs = 0;
+    for (double time_s = 1.0; time_s < 25.0; time_s += 0.1) {
+      FrameDetections frame = flight.frame(time_s);
+      const std::vector<Detection> grid = std::exchange(frame.detections, {});
+      const double half_metre_px =
+          0.5 * flight.geolocator().projector().camera().intrinsics().fx_px / kHeight_m;
+      for (const Detection& detection : grid) {
+        for (const double aside_px : {0.0, half_metre_px}) {
+          if (is_missed(random)) continue;
+          const Eigen::Vector2d centre = detection.box.centre() + Eigen::Vector2d(aside_px, 0.0);
+          frame.detections.push_back({{centre.x() + 0.5 - 9.0 + noise_px(random),
+                                       centre.y() + 0.5 - 9.0 + noise_px(random), 18.0, 18.0},
+                                      0.9,
+                                      0});
+        }
+      }
+      flight.geolocator().process(frame);
+    }
+    std::vector<Eigen::Vector2d> objects;
+    for (const Track& track : flight.geolocator().tracks()) {
+      if (track.status == TrackStatus::kConfirmed) objects.push_back(track.position_in_enu.mean);
+    }
+    const auto is_found = [&](const Eigen::Vector2d& place) {
+      return std::count_if(objects.begin(), objects.end(),
+                           [&](const Eigen::Vector2d& object) { return (object - place).norm() < 0.2; }) == 1;
+    };
+    for (double north = 8.0; north < 80.0; north += 8.0) {
+      for (const double east : {-8.0, 0.0, 7.0}) {
+        EXPECT_TRUE(is_found({east, north}) && is_found({east + 0.5, north}))
+            << seed << ": " << east << " " << north;
+        ++pairs;
+      }
+    }
+    EXPECT_GE(pairs, 27);
+  }
 }
 
 TEST(Geolocator, DoesNotMindTheOrderOfDetections) {

@@ -9,9 +9,9 @@
 #include "geoloc/calibration/arrowhead.hpp"
 #include "geoloc/calibration/existence.hpp"
 #include "geoloc/calibration/full_tracker_config.hpp"
+#include "geoloc/calibration/joint_association.hpp"
 #include "geoloc/calibration/linearize.hpp"
 #include "geoloc/calibration/neighbours.hpp"
-#include "geoloc/tracking/assignment.hpp"
 #include "geoloc/tracking/frame_view.hpp"
 #include "geoloc/tracking/track.hpp"
 
@@ -45,19 +45,22 @@ class FullTracker {
     std::size_t landmark = 0;  // place in landmarks_
     Existence existence{0.5};
     Neighbours neighbours;
-    double size_m = 0.0;                                               // apparent, mean
-    Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();          // A^-1
-    Landmark::CalibrationRow gain = Landmark::CalibrationRow::Zero();  // A^-1 B
-    double gain_spread = 0.0;  // trace of the position's covariance through the calibration
+    VehicleTime last_look{};
+    Eigen::Matrix2d pixel_information = Eigen::Matrix2d::Zero();  // sum of the looks'
+    double size_m = 0.0;                                          // apparent, mean
+    Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();     // A^-1
+    SharedError::Row gain = SharedError::Row::Zero();  // of the position, by what the next looks share
+    double gain_spread = 0.0;                          // trace of the position's covariance through it
   };
 
   /// A detection of the present frame.
   struct Look {
     LandmarkObservation observation;
-    Eigen::Vector2d position;         // corrected by calibration and drift
-    Eigen::Matrix2d gate_covariance;  // of the position against a perfectly known object, one frame's noise
-    double spread = 0.0;              // trace of the position's covariance through the calibration
-    double clutter_density = 0.0;     // [1/m^2]
+    Eigen::Vector2d position;  // corrected by calibration and drift
+    Eigen::Matrix2d pixel_noise;
+    SharedError::Row jacobian;     // of the position
+    double spread = 0.0;           // trace of the position's covariance through the shared error
+    double clutter_density = 0.0;  // [1/m^2]
     double size_m = 0.0;
     const Detection* detection = nullptr;
   };
@@ -67,9 +70,11 @@ class FullTracker {
                   const FrameView& view);
   bool is_duplicate(const Look& look) const;
   void associate();
-  void fill_costs(const Eigen::Vector2d& shift);
-  std::optional<Eigen::Matrix2d> innovation_covariance(const Look& look, const Estimate& estimate,
-                                                       const Eigen::Vector2d& residual) const;
+  void add_pairings(int look);
+  Pairing pairing(int look, int track) const;
+  SharedError::Matrix shared_prior() const;
+  double spread(const SharedError::Row& jacobian) const;
+  bool is_matched(std::size_t look) const;
   Eigen::Vector2d common_shift();
   void absorb_matched(HostTime captured_at);
   void note_same_frame_evidence();
@@ -78,8 +83,13 @@ class FullTracker {
   void remove_improbable();
   void solve_if_due(VehicleTime now);
   void merge_compatible();
+  bool may_be_one(std::size_t a, std::size_t b) const;
+  Eigen::Matrix2d covariance_of_difference(std::size_t a, std::size_t b) const;
+  double noise_share(const Track& track) const;
+  void merge(std::size_t a, std::size_t b);
   void absorb(std::size_t track, const Look& look);
   void refresh(std::size_t track);
+  Eigen::Matrix<double, 2, kNodeSize> recent_drift(const Landmark& landmark) const;
   void remove(std::size_t track);
   double detection_probability(std::size_t track, const Projector& projector, const FrameView& view) const;
   void learn_wandering();
@@ -98,18 +108,19 @@ class FullTracker {
   std::vector<const Landmark*> all_landmarks_;  // scratch of solve
 
   // The present frame.
+  VehicleTime now_{};
   std::vector<Look> looks_;
   NodeVector drift_now_ = NodeVector::Zero();
   NodeSpan span_{};
   double noise_correlation_ = 1.0;  // frames that share their noise
   double reported_accuracy_m_;
+  Eigen::Matrix2d frame_noise_ = Eigen::Matrix2d::Zero();  // of attitude and position, shared by the looks
   Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
-  AssignmentSolver assignment_;
-  Eigen::MatrixXd costs_;  // looks x candidates
-  std::vector<std::size_t> candidates_;
-  std::vector<int> track_of_look_;
-  std::vector<int> look_of_track_;
-  std::vector<double> detection_probability_of_track_;  // of the tracks this frame should show
+  JointAssociation association_;
+  const std::vector<JointAssociation::Match>* matches_ = nullptr;  // of the looks
+  std::vector<char> is_seen_;                                      // of the tracks, in this frame
+  std::vector<char> is_in_doubt_;                                  // perhaps seen: no conclusion
+  std::vector<double> detection_probability_of_track_;             // of the tracks this frame should show
   std::vector<double> median_scratch_;
 
   std::optional<VehicleTime> previous_frame_;

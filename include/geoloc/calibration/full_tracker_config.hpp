@@ -16,6 +16,7 @@ struct FullTrackerConfig {
   // Noise of one look.
   double sigma_px = 1.5;            ///< of a box's centre, an axis
   double sigma_attitude_deg = 0.1;  ///< of roll, pitch and yaw from frame to frame
+  double sigma_time_s = 0.01;       ///< of a frame's stamp, from frame to frame
   double horizontal_accuracy_m =
       0.85;  ///< of the vehicle's position, where the autopilot reports none (radial, 1-sigma)
   double constant_share = 0.15;  ///< of its variance, what stays constant over a flight; the rest wanders
@@ -29,7 +30,9 @@ struct FullTrackerConfig {
   double sigma_state_lag_s = 0.01;        ///< state shown late by its filter and its link
 
   // Association.
-  double gate = 11.8;  ///< squared Mahalanobis distance; chi-square, 2 degrees of freedom, 99.7 %
+  double gate = 11.8;      ///< squared Mahalanobis distance; chi-square, 2 degrees of freedom, 99.7 %
+  double ambiguity = 9.0;  ///< a look is not used where its frame can be explained otherwise, and less than
+                           ///< this worse in the same units
   double class_mismatch_cost = 4.0;  ///< added to it where the classes differ
   double duplicate_share = 0.3;      ///< detections nearer than this share of their size are one
 

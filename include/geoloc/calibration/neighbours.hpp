@@ -22,7 +22,8 @@ class Neighbours {
     }
   }
 
-  bool are_apart(std::uint64_t other) const { return evidence_against(other) >= kProof; }
+  /// Two objects, as far as the frames tell: proven, or seen so once and not yet worn off.
+  bool are_apart(std::uint64_t other) const { return evidence_against(other) > kDoubt; }
 
   /// `gone` is now known as `kept`.
   void rename(std::uint64_t gone, std::uint64_t kept) {
@@ -40,6 +41,7 @@ class Neighbours {
 
  private:
   static constexpr double kProof = 2.0;
+  static constexpr double kDoubt = 0.5;
 
   struct Entry {
     std::uint64_t other = 0;  // ids start at 1

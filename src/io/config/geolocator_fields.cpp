@@ -67,6 +67,7 @@ void visit_fields(Visitor& v, FullTrackerConfig& full) {
   v.section("prior", full.prior);
   v.section("drift", full.drift);
   v.field("sigma_px", full.sigma_px, "px, 1-sigma of a box's centre, an axis");
+  v.field("sigma_time_s", full.sigma_time_s, "s, of a frame's stamp, from frame to frame");
   v.field("sigma_attitude_deg", full.sigma_attitude_deg, "deg, 1-sigma from frame to frame");
   v.field("horizontal_accuracy_m", full.horizontal_accuracy_m, "m, radial, where the autopilot reports none");
   v.field("constant_share", full.constant_share, "of its variance, what stays constant over a flight");
@@ -77,6 +78,9 @@ void visit_fields(Visitor& v, FullTrackerConfig& full) {
   v.field("sigma_attitude_bias_deg", full.sigma_attitude_bias_deg, "deg, the autopilot's own, 1-sigma");
   v.field("sigma_state_lag_s", full.sigma_state_lag_s, "s, the autopilot's own, 1-sigma");
   v.field("gate", full.gate, "squared Mahalanobis distance up to which a pair is accepted");
+  v.field(
+      "ambiguity", full.ambiguity,
+      "in the same units, how much worse another explanation of a frame may be and still be held possible");
   v.field("class_mismatch_cost", full.class_mismatch_cost, "added to it where the classes differ");
   v.field("duplicate_share", full.duplicate_share, "of their size: detections nearer than this are one");
   v.field("detection_probability", full.detection_probability, "before any was counted");

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "geoloc/tracking/assignment.hpp"
+
+namespace geoloc {
+
+/// What all looks of a frame are off by together, as one vector: calibration (without the offset, which
+/// cancels between a look and a track that looks made), drift of the vehicle's state, noise of the frame.
+struct SharedError {
+  static constexpr int kCalibration = 0;  ///< boresight, latency, height
+  static constexpr int kDrift = 5;        ///< east, north, yaw
+  static constexpr int kFrame = 8;        ///< east, north
+  static constexpr int kTime = 10;        ///< of the frame's stamp
+  static constexpr int kSize = 11;
+
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  using Row = Eigen::Matrix<double, 2, kSize>;
+};
+
+/// A look that may show a track: residual = jacobian * shared error + noise of its own.
+struct Pairing {
+  int look = 0;
+  int track = 0;
+  Eigen::Vector2d residual;        ///< look minus track [m]
+  SharedError::Row jacobian;       ///< of the residual
+  Eigen::Matrix2d own_covariance;  ///< detector's noise and what is not known of the track by itself [m^2]
+  double penalty = 0.0;            ///< added to the squared distance: classes differ
+};
+
+/// Which look shows which track, where all looks are shifted by the same unknown errors: a row of objects may
+/// fit better one place on, look by look, but not together. The assignment and the shared errors are
+/// therefore estimated jointly, from several starts: each way to explain the most ambiguous looks. (Joint
+/// compatibility, Neira and Tardos 2001; here with optimal assignments in place of a tree search.)
+class JointAssociation {
+ public:
+  static constexpr int kNone = -1;
+
+  struct Match {
+    int track = kNone;
+    /// Another explanation of the frame, about as good, says otherwise: best learn nothing from this look.
+    bool is_ambiguous = false;
+    Eigen::Vector2d innovation;
+    Eigen::Matrix2d innovation_covariance;
+  };
+
+  JointAssociation(int max_looks, int max_tracks);
+
+  /// A new frame. gate: squared Mahalanobis distance at which a look is rather left alone; ambiguity: as much
+  /// worse, in the same units, an explanation may be to be held possible.
+  void begin(std::size_t looks, const SharedError::Matrix& prior, double gate, double ambiguity);
+
+  /// A pair that may belong together; those beyond the gate by themselves are dropped.
+  void add(const Pairing& pairing);
+
+  /// One match a look.
+  const std::vector<Match>& solve();
+
+  /// Pairs within the gate, in the order they were added.
+  const std::vector<Pairing>& pairings() const { return pairings_; }
+
+ private:
+  /// Shared error given some pairs.
+  struct Estimate {
+    SharedError::Vector mean = SharedError::Vector::Zero();
+    SharedError::Matrix covariance = SharedError::Matrix::Zero();
+    double squared_distance = 0.0;  // of the pairs, jointly
+
+    void add(const Pairing& pairing);
+  };
+
+  /// One explanation of the frame.
+  struct Hypothesis {
+    std::vector<int> pairing_of_look;
+    double cost = 0.0;
+    Estimate estimate;
+  };
+
+  Estimate given_nothing() const;
+  bool is_doubtful(std::size_t look) const;
+  bool is_plain() const;
+  void explain(const Pairing* start, int look_left_alone);
+  void assign(const Estimate& estimate, int look_left_alone, std::vector<int>& pairing_of_look);
+  void try_other_explanations();
+  void report(const Hypothesis& best);
+  int track_of(const Hypothesis& hypothesis, std::size_t look) const;
+
+  double gate_ = 0.0;
+  double ambiguity_ = 0.0;
+  SharedError::Matrix prior_;
+  std::vector<Pairing> pairings_;
+  std::vector<int> pairings_of_look_;  // how many
+  std::vector<double> least_cost_of_look_;
+  std::vector<int> column_of_track_;  // kNone where it is in no pair
+  std::vector<int> track_of_column_;
+  std::vector<int> pairings_of_column_;
+  Eigen::MatrixXd costs_;       // looks x tracks that are in a pair
+  Eigen::MatrixXi pairing_at_;  // the same shape
+  AssignmentSolver assignment_;
+  std::vector<Hypothesis> hypotheses_;  // the first `hypothesis_count_` are in use
+  std::size_t hypothesis_count_ = 0;
+  std::vector<Match> matches_;
+};
+
+}  // namespace geoloc

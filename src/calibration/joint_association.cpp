@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/calibration/joint_association.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "geoloc/tracking/gaussian.hpp"
+
+namespace geoloc {
+namespace {
+
+/// Explanations tried of one frame.
+constexpr std::size_t kMostHypotheses = 32;
+/// A look farther from its track than this share of the gate may as well be of something new.
+constexpr double kSureShare = 0.5;
+/// Assignment and shared error are found in turns.
+constexpr int kRounds = 2;
+/// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.
+constexpr std::size_t kPairingsPerLook = 16;
+
+}  // namespace
+
+JointAssociation::JointAssociation(int max_looks, int max_tracks) {
+  const auto looks = static_cast<std::size_t>(max_looks);
+  const auto tracks = static_cast<std::size_t>(max_tracks);
+  pairings_.reserve(kPairingsPerLook * looks);
+  pairings_of_look_.reserve(looks);
+  least_cost_of_look_.reserve(looks);
+  column_of_track_.assign(tracks, kNone);
+  track_of_column_.reserve(tracks);
+  pairings_of_column_.reserve(tracks);
+  costs_.resize(max_looks, max_tracks);
+  pairing_at_.resize(max_looks, max_tracks);
+  assignment_.reserve(max_looks, max_tracks);
+  hypotheses_.resize(kMostHypotheses);
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.pairing_of_look.reserve(looks);
+  matches_.reserve(looks);
+}
+
+void JointAssociation::begin(std::size_t looks, const SharedError::Matrix& prior, double gate,
+                             double ambiguity) {
+  gate_ = gate;
+  ambiguity_ = ambiguity;
+  prior_ = prior;
+  pairings_.clear();
+  pairings_of_look_.assign(looks, 0);
+  least_cost_of_look_.assign(looks, gate);
+  for (const int track : track_of_column_) column_of_track_[static_cast<std::size_t>(track)] = kNone;
+  track_of_column_.clear();
+  pairings_of_column_.clear();
+  hypothesis_count_ = 0;
+}
+
+void JointAssociation::add(const Pairing& pairing) {
+  if (pairings_.size() == pairings_.capacity()) return;
+  const Eigen::Matrix2d covariance =
+      pairing.own_covariance + pairing.jacobian * prior_ * pairing.jacobian.transpose();
+  const double cost = mahalanobis_squared(pairing.residual, covariance) + pairing.penalty;
+  if (!(cost < gate_)) return;
+  pairings_.push_back(pairing);
+  double& least_cost = least_cost_of_look_[static_cast<std::size_t>(pairing.look)];
+  least_cost = std::min(least_cost, cost);
+  ++pairings_of_look_[static_cast<std::size_t>(pairing.look)];
+  int& column = column_of_track_[static_cast<std::size_t>(pairing.track)];
+  if (column == kNone) {
+    column = static_cast<int>(track_of_column_.size());
+    track_of_column_.push_back(pairing.track);
+    pairings_of_column_.push_back(0);
+  }
+  ++pairings_of_column_[static_cast<std::size_t>(column)];
+}
+
+void JointAssociation::Estimate::add(const Pairing& pairing) {
+  const Eigen::Matrix<double, SharedError::kSize, 2> crossed = covariance * pairing.jacobian.transpose();
+  const Eigen::Matrix2d information = (pairing.own_covariance + pairing.jacobian * crossed).inverse();
+  const Eigen::Vector2d innovation = pairing.residual - pairing.jacobian * mean;
+  squared_distance += innovation.dot(information * innovation) + pairing.penalty;
+  const Eigen::Matrix<double, SharedError::kSize, 2> gain = crossed * information;
+  mean += gain * innovation;
+  covariance -= gain * crossed.transpose();
+}
+
+JointAssociation::Estimate JointAssociation::given_nothing() const {
+  Estimate estimate;
+  estimate.covariance = prior_;
+  return estimate;
+}
+
+/// A look with one track, but not near it: it may be of something new.
+bool JointAssociation::is_doubtful(std::size_t look) const {
+  return pairings_of_look_[look] > 0 && least_cost_of_look_[look] > kSureShare * gate_;
+}
+
+/// No look has a choice, and no track.
+bool JointAssociation::is_plain() const {
+  const auto has_choice = [](int pairs) { return pairs > 1; };
+  for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
+    if (is_doubtful(look)) return false;
+  }
+  return std::none_of(pairings_of_look_.begin(), pairings_of_look_.end(), has_choice) &&
+         std::none_of(pairings_of_column_.begin(), pairings_of_column_.end(), has_choice);
+}
+
+void JointAssociation::assign(const Estimate& estimate, int look_left_alone,
+                              std::vector<int>& pairing_of_look) {
+  auto costs = costs_.topLeftCorner(static_cast<Eigen::Index>(pairings_of_look_.size()),
+                                    static_cast<Eigen::Index>(track_of_column_.size()));
+  costs.setConstant(gate_);
+  for (std::size_t p = 0; p < pairings_.size(); ++p) {
+    const Pairing& pairing = pairings_[p];
+    if (pairing.look == look_left_alone) continue;
+    const int column = column_of_track_[static_cast<std::size_t>(pairing.track)];
+    const Eigen::Matrix2d covariance =
+        pairing.own_covariance + pairing.jacobian * estimate.covariance * pairing.jacobian.transpose();
+    costs(pairing.look, column) =
+        mahalanobis_squared(pairing.residual - pairing.jacobian * estimate.mean, covariance) +
+        pairing.penalty;
+    pairing_at_(pairing.look, column) = static_cast<int>(p);
+  }
+  const std::vector<int>& column_of_look = assignment_.solve(costs, gate_);
+  pairing_of_look.assign(pairings_of_look_.size(), kNone);
+  for (std::size_t i = 0; i < pairing_of_look.size(); ++i) {
+    const int column = column_of_look[i];
+    if (column != AssignmentSolver::kUnassigned)
+      pairing_of_look[i] = pairing_at_(static_cast<Eigen::Index>(i), column);
+  }
+}
+
+void JointAssociation::explain(const Pairing* start, int look_left_alone) {
+  if (hypothesis_count_ == kMostHypotheses) return;
+  Hypothesis& hypothesis = hypotheses_[hypothesis_count_++];
+  Estimate estimate = given_nothing();
+  if (start != nullptr) estimate.add(*start);
+  for (int round = 0; round < kRounds; ++round) {
+    assign(estimate, look_left_alone, hypothesis.pairing_of_look);
+    estimate = given_nothing();
+    for (const int pairing : hypothesis.pairing_of_look) {
+      if (pairing != kNone) estimate.add(pairings_[static_cast<std::size_t>(pairing)]);
+    }
+  }
+  const auto alone = std::count(hypothesis.pairing_of_look.begin(), hypothesis.pairing_of_look.end(), kNone);
+  hypothesis.estimate = estimate;
+  hypothesis.cost = estimate.squared_distance + gate_ * static_cast<double>(alone);
+}
+
+/// Starts from each pair that no explanation so far holds, where its look has a choice.
+void JointAssociation::try_other_explanations() {
+  for (std::size_t p = 0; p < pairings_.size(); ++p) {
+    const auto look = static_cast<std::size_t>(pairings_[p].look);
+    const auto end = hypotheses_.begin() + static_cast<std::ptrdiff_t>(hypothesis_count_);
+    const bool is_held = std::any_of(hypotheses_.begin(), end, [&](const Hypothesis& hypothesis) {
+      return hypothesis.pairing_of_look[look] == static_cast<int>(p);
+    });
+    if (pairings_of_look_[look] > 1 && !is_held) explain(&pairings_[p], kNone);
+  }
+  for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
+    if (is_doubtful(look)) explain(nullptr, static_cast<int>(look));
+  }
+}
+
+int JointAssociation::track_of(const Hypothesis& hypothesis, std::size_t look) const {
+  const int pairing = hypothesis.pairing_of_look[look];
+  return pairing == kNone ? kNone : pairings_[static_cast<std::size_t>(pairing)].track;
+}
+
+void JointAssociation::report(const Hypothesis& best) {
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    Match& match = matches_[i];
+    match.track = track_of(best, i);
+    for (std::size_t h = 0; h < hypothesis_count_; ++h) {
+      const Hypothesis& other = hypotheses_[h];
+      match.is_ambiguous =
+          match.is_ambiguous || (other.cost < best.cost + ambiguity_ && track_of(other, i) != match.track);
+    }
+    if (match.track == kNone) continue;
+    const Pairing& pairing = pairings_[static_cast<std::size_t>(best.pairing_of_look[i])];
+    match.innovation = pairing.residual - pairing.jacobian * best.estimate.mean;
+    match.innovation_covariance =
+        pairing.own_covariance + pairing.jacobian * best.estimate.covariance * pairing.jacobian.transpose();
+  }
+}
+
+const std::vector<JointAssociation::Match>& JointAssociation::solve() {
+  matches_.assign(pairings_of_look_.size(), Match{});
+  if (is_plain()) {
+    for (const Pairing& pairing : pairings_) {
+      Match& match = matches_[static_cast<std::size_t>(pairing.look)];
+      match.track = pairing.track;
+      match.innovation = pairing.residual;
+      match.innovation_covariance =
+          pairing.own_covariance + pairing.jacobian * prior_ * pairing.jacobian.transpose();
+    }
+    return matches_;
+  }
+  explain(nullptr, kNone);
+  try_other_explanations();
+  const auto end = hypotheses_.begin() + static_cast<std::ptrdiff_t>(hypothesis_count_);
+  report(*std::min_element(hypotheses_.begin(), end,
+                           [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; }));
+  return matches_;
+}
+
+}  // namespace geoloc
