@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 CLUTTER = -1
 GROUND_MSL_M = 10.0  # data/flights/README.md
-FARTHEST_LABEL_PX = 12.0  # 8 sigma of a simulated box's centre; the closest targets are 50 px apart
+FARTHEST_LABEL_PX = 10.0  # 7 sigma of a simulated box's centre; the next target is 35 px away at least
 
 
 @dataclass(frozen=True)

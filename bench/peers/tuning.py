@@ -17,8 +17,8 @@ TUNED = Path(__file__).with_name("tuned.json")
 SEED = 7
 PATHS = (1, 3, 6)
 GATE = 3.0
-NOISES_M = (0.5, 0.65, 0.8, 1.0, 1.3, 1.7)
-CONFIRM_HITS = (3, 6, 12)
+NOISES_M = (0.65, 0.8, 1.0, 1.3, 1.7, 2.2)
+CONFIRM_HITS = (3, 6, 12, 24)
 HOLDS_S = (0.5, 2.0, 8.0)
 DRIFTS_M = (0.0, 0.02)
 
