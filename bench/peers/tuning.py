@@ -27,6 +27,8 @@ Candidates = dict[str, list[TrackerSettings]]  # for each set of flights
 
 def read_tuned() -> dict[str, TrackerSettings]:
     """The settings chosen for each set of flights."""
+    if not TUNED.exists():
+        raise RuntimeError(f"{TUNED} is missing: git checkout it, or make it anew with run.sh --tune")
     return {name: TrackerSettings(**values) for name, values in json.loads(TUNED.read_text()).items()}
 
 
