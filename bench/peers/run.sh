@@ -1,0 +1,35 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# bench/peers/run.sh [--seeds 0,1,2] [--sets stock,gnss] [--jobs N] [--tune]: geoloc, Stone Soup and the mean of all fixes
+# on the same recordings; prints a table and writes it to build/peers/. See bench/peers/README.md.
+set -euo pipefail
+ROOT=$(cd "$(dirname "$0")/../.." && pwd)
+cd "$ROOT"
+mkdir -p build/peers
+source scripts/packages.sh
+install_packages "${BUILD_PACKAGES[@]}"
+
+fail() { tail -n 20 "$1" >&2; echo "run.sh: $2; all of it is in $1" >&2; exit 1; }
+
+if [ ! -f build/release/build.ninja ]; then
+  say "Configuring"
+  cmake --preset demo >build/peers/configure.log 2>&1 || fail build/peers/configure.log "cmake could not configure"
+fi
+say "Building"
+cmake --build build/release --target geoloc_sim geoloc_replay >build/peers/build.log 2>&1 ||
+  fail build/peers/build.log "the build failed"
+
+venv=build/peers/venv wanted=bench/peers/requirements.txt
+if ! cmp -s "$wanted" "$venv/installed.txt"; then
+  say "Installing Stone Soup into $venv"
+  rm -rf "$venv"
+  python3 -m venv "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$wanted" \
+    >build/peers/pip.log 2>&1 ||
+    fail build/peers/pip.log "pip could not install $wanted, which needs PyPI and Python 3.11 or newer"
+  cp "$wanted" "$venv/installed.txt"
+fi
+
+say "Running"
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1  # a run is one thread; its CPU time is what it says
+exec nice -n 5 "$venv/bin/python" bench/peers/peers.py "$@"
