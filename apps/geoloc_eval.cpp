@@ -21,6 +21,7 @@ struct Options {
   std::string flights = "all";
   std::string method = "both";
   std::vector<std::uint64_t> seeds{0, 1, 2};
+  int known_points = 0;
   std::string config_file;
   std::string report_folder;
   std::optional<std::filesystem::path> data_folder;
@@ -36,6 +37,11 @@ void add_options(CLI::App& program, Options& options) {
       ->capture_default_str();
   program.add_option("--seeds", options.seeds, "Seeds of targets and errors")
       ->delimiter(',')
+      ->capture_default_str();
+  program
+      .add_option("--known-points", options.known_points,
+                  "Targets of each run that the full method is told, 5 cm off; the others are scored")
+      ->check(CLI::Range(0, 30))
       ->capture_default_str();
   program.add_option("--config", options.config_file, "Settings of the estimator, JSON")->type_name("FILE");
   program.add_option("--report", options.report_folder, "Write report.md and report.json here")
@@ -58,6 +64,7 @@ Experiment make_experiment(const Options& options) {
   if (options.method == "paper") experiment.methods = {Method::kPaper};
   if (options.method == "full") experiment.methods = {Method::kFull};
   experiment.seeds = options.seeds;
+  experiment.known_points = options.known_points;
   if (!options.config_file.empty()) {
     std::vector<std::string> problems;
     estimation_from_json(read_config_document(options.config_file), {"video", "detection"},

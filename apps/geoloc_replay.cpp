@@ -23,6 +23,7 @@ struct Options {
   std::string truth_file;
   bool keep_going = false;
   bool print_config = false;
+  PriorFiles priors;
   OutputFiles outputs;
 };
 
@@ -47,6 +48,7 @@ EstimationConfig choose_config(const Options& options, const io::Recording* reco
   if (!options.config_file.empty())
     apply(read_config_document(options.config_file), options.config_file, config);
   if (!options.method.empty()) apply({{"method", options.method}}, "--method", config);
+  apply_priors(options.priors, config.geolocator);
   return config;
 }
 
@@ -59,6 +61,7 @@ void add_options(CLI::App& program, Options& options) {
       ->type_name("FILE");
   program.add_flag("--keep-going", options.keep_going, "Skip bad lines of frames.jsonl, and count them");
   program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
+  add_prior_options(program, options.priors);
   add_output_options(program, options.outputs);
 }
 

@@ -53,6 +53,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
   program.add_flag("--print-settings", options.print_settings,
                    "Print what each setting means, as a table, and exit");
+  add_prior_options(program, options.priors);
   add_output_options(program, options.outputs);
 }
 
@@ -65,6 +66,7 @@ LiveConfig load_config(const LiveOptions& options) {
   };
   if (!options.config_file.empty()) apply(read_config_document(options.config_file), options.config_file);
   if (!options.method.empty()) apply({{"method", options.method}}, "--method");
+  apply_priors(options.priors, config.estimation.geolocator);
   return config;
 }
 

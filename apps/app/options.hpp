@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/live_config.hpp"
+#include "common/command_line.hpp"
 #include "common/run_outputs.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/host_clock.hpp"
@@ -30,6 +31,7 @@ struct LiveOptions {
   std::string truth_file;
   bool print_config = false;
   bool print_settings = false;
+  PriorFiles priors;
   OutputFiles outputs;
 };
 

@@ -2,6 +2,10 @@
 #include "common/command_line.hpp"
 
 #include <cstdio>
+#include <stdexcept>
+
+#include "geoloc/io/config/calibration_file.hpp"
+#include "geoloc/io/config/known_points_file.hpp"
 
 namespace geoloc::apps {
 
@@ -12,6 +16,29 @@ void add_output_options(CLI::App& program, OutputFiles& files) {
   add("--out", files.objects, "Confirmed objects, GeoJSON");
   add("--raw", files.raw, "Every located detection, CSV");
   add("--picture", files.picture, "Map of the run, SVG");
+}
+
+void add_prior_options(CLI::App& program, PriorFiles& files) {
+  program
+      .add_option("--reference", files.references,
+                  "Surveyed objects, GeoJSON: they take the receiver's offset out of all others")
+      ->type_name("FILE");
+  program
+      .add_option("--calibration", files.calibration,
+                  "The --out of an earlier flight of this camera: what it learnt is where this one begins")
+      ->type_name("FILE");
+}
+
+void apply_priors(const PriorFiles& files, GeolocatorConfig& config) {
+  if (!files.references.empty()) {
+    if (config.method != Method::kFull)
+      throw std::runtime_error(
+          "--reference: the paper's method has no use for known points; leave out one of the two");
+    config.known_points = io::read_known_points(files.references);
+  }
+  if (!files.calibration.empty())
+    config.full.prior =
+        io::read_calibration(files.calibration, config.full.prior, config.full.drift.sigma_yaw_deg);
 }
 
 std::optional<int> parse(CLI::App& program, int argc, char** argv) {

@@ -14,6 +14,18 @@ inline constexpr int kDone = 0;
 inline constexpr int kFailed = 1;
 inline constexpr int kUnusable = 2;  ///< arguments or input
 
+/// What is known before a flight.
+struct PriorFiles {
+  std::string references;   ///< GeoJSON of surveyed objects
+  std::string calibration;  ///< what an earlier flight learnt of the camera
+};
+
+/// --reference, --calibration.
+void add_prior_options(CLI::App& program, PriorFiles& files);
+
+/// Reads them over `config`. Throws std::runtime_error naming the file and the reason.
+void apply_priors(const PriorFiles& files, GeolocatorConfig& config);
+
 /// --out, --raw, --picture.
 void add_output_options(CLI::App& program, OutputFiles& files);
 

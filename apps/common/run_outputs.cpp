@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "geoloc/io/atomic_file.hpp"
@@ -30,10 +31,11 @@ std::vector<Eigen::Vector2d> positions(const std::vector<io::RawFix>& fixes) {
   return points;
 }
 
-std::vector<Gaussian2> confirmed(const Session& session) {
+std::vector<Gaussian2> confirmed(const Session& session, const LeftOut& left_out) {
   std::vector<Gaussian2> objects;
   for (const Track& track : session.geolocator().tracks()) {
-    if (track.status == TrackStatus::kConfirmed) objects.push_back(track.position_in_enu);
+    const bool is_left_out = std::find(left_out.begin(), left_out.end(), track.id) != left_out.end();
+    if (track.status == TrackStatus::kConfirmed && !is_left_out) objects.push_back(track.position_in_enu);
   }
   return objects;
 }
@@ -69,33 +71,58 @@ void write_outputs(const OutputFiles& files, const Session& session,
     io::write_file_atomically(files.picture, picture_of(session, objects, truth, title));
 }
 
-Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
+Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth, const LeftOut& left_out) {
   if (!session.geolocator().local_frame())
     return score_objects({}, std::vector<Eigen::Vector2d>(truth.size()));
   std::vector<Eigen::Vector2d> objects;
-  for (const Gaussian2& object : confirmed(session)) objects.push_back(object.mean);
+  for (const Gaussian2& object : confirmed(session, left_out)) objects.push_back(object.mean);
   return score_objects(objects, in_enu(truth, session.geolocator()));
 }
 
 double consistency_of_run(const Session& session, const std::vector<io::TrueTarget>& truth,
-                          const Score& score) {
+                          const Score& score, const LeftOut& left_out) {
   if (!session.geolocator().local_frame()) return 0.0;
-  return mean_nees(confirmed(session), in_enu(truth, session.geolocator()), score.target_of_object);
+  return mean_nees(confirmed(session, left_out), in_enu(truth, session.geolocator()), score.target_of_object);
 }
 
+namespace {
+
+/// What became of the known points, where it is not what the user expects.
+std::string unused_known_points(const Geolocator& geolocator) {
+  std::string lines;
+  const auto& entries = geolocator.known_points();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const char* reason = nullptr;
+    if (entries[i].status == KnownPointStatus::kNotCovered)
+      reason = "the camera did not look there long enough";
+    if (entries[i].status == KnownPointStatus::kNoObject)
+      reason = "no object there agrees with it and with the other references: check its coordinates";
+    if (entries[i].status == KnownPointStatus::kAmbiguous) reason = "several objects may be the one";
+    if (reason != nullptr)
+      lines += fmt::format("\nreference {} not used: {}", geolocator.config().known_points[i].name, reason);
+  }
+  return lines;
+}
+
+}  // namespace
+
 std::string summarize(const Session& session, const std::vector<io::TrueTarget>& truth) {
+  const std::string unused = unused_known_points(session.geolocator());
   const std::uint64_t frames = session.frames();
   if (truth.empty()) {
     return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",
                        io::report_objects(session.geolocator(), {}).size(),
-                       session.history().raw_fixes().size(), frames, session.frames_unusable());
+                       session.history().raw_fixes().size(), frames, session.frames_unusable()) +
+           unused;
   }
   const Score score = score_run(session, truth);
   return fmt::format(
-      "found {} / {}, RMSE {:.3f} m (relative {:.3f} m), extra {}, merged pairs {}, {} frames ({} without "
-      "vehicle state)",
-      score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
-      frames, session.frames_unusable());
+             "found {} / {}, RMSE {:.3f} m (relative {:.3f} m), extra {}, merged pairs {}, {} frames ({} "
+             "without "
+             "vehicle state)",
+             score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
+             frames, session.frames_unusable()) +
+         unused;
 }
 
 std::string objects_to_table(const std::vector<io::ObjectReport>& objects) {

@@ -23,12 +23,16 @@ void write_outputs(const OutputFiles& files, const Session& session,
                    const std::vector<std::string>& class_names, const std::vector<io::TrueTarget>& truth,
                    const std::string& title);
 
+/// Objects that are not scored, by id: those whose places the run was told.
+using LeftOut = std::vector<std::uint64_t>;
+
 /// The run against the true targets.
-Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth);
+Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth,
+                const LeftOut& left_out = {});
 
 /// Of the objects that score matched (score.hpp).
 double consistency_of_run(const Session& session, const std::vector<io::TrueTarget>& truth,
-                          const Score& score);
+                          const Score& score, const LeftOut& left_out = {});
 
 /// Lines for a person: objects found and, where the truth is known, how well.
 std::string summarize(const Session& session, const std::vector<io::TrueTarget>& truth);

@@ -22,7 +22,8 @@ struct Experiment {
   std::vector<std::uint64_t> seeds{0, 1, 2};
   std::vector<Method> methods{Method::kPaper, Method::kFull};
   sim::RecordingSettings recording;  ///< flight, scenario and seed are set for each run
-  EstimationConfig estimation;       ///< camera and method are set for each run
+  int known_points = 0;         ///< targets of each run that the full method is told, and that are not scored
+  EstimationConfig estimation;  ///< camera and method are set for each run
 };
 
 /// Estimated minus injected, with the stated sigma; only where the method estimates it.
@@ -40,6 +41,7 @@ struct RunResult {
   Method method = Method::kPaper;
   Score score;
   double nees = 0.0;  ///< mean over the objects found; 2 is right
+  int known_points_used = 0;
   std::optional<CalibrationError> calibration;
 };
 

@@ -144,6 +144,7 @@ std::string to_json(const std::vector<RunResult>& results) {
                     {"extra", run.score.extra},
                     {"merged_pairs", run.score.merged_pairs},
                     {"nees", run.nees},
+                    {"known_points_used", run.known_points_used},
                     {"calibration_error", to_json(run.calibration)}});
   }
   auto summaries = nlohmann::ordered_json::array();

@@ -15,7 +15,7 @@ using Index = CalibrationIndex;
 
 /// Frames at the start of a flight after each of which the head is solved: it learns most then.
 constexpr int kEagerFrames = 100;
-/// Looks that make a track worth merging.
+/// Looks that make a track worth merging with others, or comparing with known points.
 constexpr int kMergeHits = 3;
 /// What two tracks of one object may differ by beyond their stated noise: its looks differ with the
 /// direction.
@@ -89,10 +89,12 @@ std::vector<std::string> FullTrackerConfig::problems() const {
   return found.take();
 }
 
-FullTracker::FullTracker(const FullTrackerConfig& config, int max_detections)
+FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint> known_points,
+                         int max_detections)
     : config_(checked(config)),
       drift_(config.drift),
       solver_(config.prior, config.drift.max_nodes),
+      known_points_(std::move(known_points), config.max_tracks),
       reported_accuracy_m_(config.horizontal_accuracy_m),
       association_(max_detections, config.max_tracks),
       expected_hits_(config.detection_probability * kPriorOpportunities),
@@ -104,6 +106,7 @@ FullTracker::FullTracker(const FullTrackerConfig& config, int max_detections)
   landmarks_.reserve(tracks);
   free_landmarks_.reserve(tracks);
   all_landmarks_.reserve(tracks);
+  known_candidates_.reserve(tracks);
   is_seen_.reserve(tracks);
   is_in_doubt_.reserve(tracks);
   detection_probability_of_track_.reserve(tracks);
@@ -139,6 +142,7 @@ void FullTracker::update(const std::vector<LocatedDetection>& detections, const 
   make_looks(detections, projector, view);
   associate();
   weigh_missed(projector, view);
+  cover_known_points(projector, view);
   absorb_matched(view.captured_at_host);
   start_tentative(view.captured_at_host);
   note_same_frame_evidence();
@@ -337,12 +341,15 @@ void FullTracker::note_same_frame_evidence() {
   }
 }
 
+/// Where this frame would show a place: corrections undone.
+Eigen::Vector2d FullTracker::shown_in_frame(const Eigen::Vector2d& position_in_enu) const {
+  return position_in_enu - calibration_.offset_m() - drift_now_.head<2>() + shift_;
+}
+
 /// Zero outside the image, at its edge and for objects too small; otherwise what was counted so far.
 double FullTracker::detection_probability(std::size_t track, const Projector& projector,
                                           const FrameView& view) const {
-  // Where this frame would show it: corrections undone.
-  const Eigen::Vector2d shown =
-      tracks_[track].position_in_enu.mean - calibration_.offset_m() - drift_now_.head<2>() + shift_;
+  const Eigen::Vector2d shown = shown_in_frame(tracks_[track].position_in_enu.mean);
   const auto pixel = projector.reproject(shown, view.enu_from_camera);
   if (!pixel) return 0.0;
   const auto fix = projector.project(*pixel, view.enu_from_camera);
@@ -474,6 +481,7 @@ void FullTracker::remove_improbable() {
   for (std::size_t k = tracks_.size(); k-- > 0;) {
     tracks_[k].existence = estimates_[k].existence.probability();
     if (*tracks_[k].existence >= config_.delete_probability) continue;
+    known_points_.forget(tracks_[k].id);
     remove(k);
     ++counters_.removed;
   }
@@ -484,15 +492,69 @@ void FullTracker::solve_if_due(VehicleTime now) {
                       seconds(now - *solved_at_) >= config_.solve_period_s;
   if (!is_due) return;
   solved_at_ = now;
+  solve();
+  learn_wandering();
+  merge_compatible();
+  state_covariances();
+  if (!match_known_points()) return;
+  solve();
+  state_covariances();
+}
+
+void FullTracker::solve() {
   all_landmarks_.clear();
   for (const Estimate& estimate : estimates_) all_landmarks_.push_back(&landmarks_[estimate.landmark]);
   solver_.solve(all_landmarks_, sigma_offset_m(), drift_, calibration_);
-  learn_wandering();
   for (std::size_t k = 0; k < tracks_.size(); ++k) refresh(k);
-  merge_compatible();
+}
+
+void FullTracker::state_covariances() {
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     tracks_[k].position_in_enu.covariance = solver_.covariance(landmarks_[estimates_[k].landmark], drift_);
   }
+}
+
+void FullTracker::cover_known_points(const Projector& projector, const FrameView& view) {
+  const double margin_px = 0.1 * projector.camera().intrinsics().height_px;
+  for (std::size_t i = 0; i < known_points_.entries().size(); ++i) {
+    const Eigen::Vector2d shown = shown_in_frame(known_points_.entries()[i].position_in_enu);
+    if (projector.sees(shown, view.enu_from_camera, margin_px)) known_points_.cover(i);
+  }
+}
+
+/// A surveyed object's coordinates are information on its position, and through the head on all others'. True
+/// where there is some that the last solution did not have.
+bool FullTracker::match_known_points() {
+  if (known_points_.entries().empty()) return false;
+  known_candidates_.clear();
+  double variance = 0.0, own_variance = 0.0;  // an axis, means over the candidates
+  std::size_t before = 0;
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    const Track& track = tracks_[k];
+    if (track.hits < kMergeHits) continue;
+    variance += 0.5 * track.position_in_enu.covariance.trace();
+    own_variance += known_candidates_.empty() ? 0.5 * estimates_[k].own_covariance.trace()
+                                              : 0.25 * covariance_of_difference(before, k).trace();
+    known_candidates_.push_back(
+        {track.id, track.status == TrackStatus::kConfirmed, track.class_id(), track.position_in_enu.mean});
+    before = k;
+  }
+  if (known_candidates_.empty()) return false;
+  const auto count = static_cast<double>(known_candidates_.size());
+  const double shared_variance = std::max(0.0, (variance - own_variance) / count);
+  if (!known_points_.match(known_candidates_, std::sqrt(shared_variance), std::sqrt(own_variance / count),
+                           config_.gate, config_.ambiguity))
+    return false;
+  bool is_new = false;
+  for (std::size_t k = 0; k < tracks_.size(); ++k) {
+    const KnownPoints::Entry* entry = known_points_.of_track(tracks_[k].id);
+    if (entry == nullptr || estimates_[k].is_known) continue;
+    landmarks_[estimates_[k].landmark].add_prior(
+        entry->position_in_enu, Eigen::Matrix2d::Identity() / (entry->sigma_m * entry->sigma_m));
+    estimates_[k].is_known = true;
+    is_new = true;
+  }
+  return is_new;
 }
 
 void FullTracker::learn_wandering() {
@@ -523,6 +585,7 @@ double FullTracker::noise_share(const Track& track) const {
 bool FullTracker::may_be_one(std::size_t a, std::size_t b) const {
   const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
   return apart.squaredNorm() <= config_.merge_radius_m * config_.merge_radius_m &&
+         !(estimates_[a].is_known && estimates_[b].is_known) &&
          std::min(tracks_[a].hits, tracks_[b].hits) >= kMergeHits &&
          !estimates_[a].neighbours.are_apart(tracks_[b].id) &&
          mahalanobis_squared(apart, covariance_of_difference(a, b)) <= config_.merge_gate;
@@ -533,6 +596,8 @@ void FullTracker::merge(std::size_t a, std::size_t b) {
   landmarks_[estimates_[a].landmark].merge(landmarks_[estimates_[b].landmark], drift_);
   estimates_[a].pixel_information += estimates_[b].pixel_information;
   estimates_[a].last_look = std::max(estimates_[a].last_look, estimates_[b].last_look);
+  estimates_[a].is_known = estimates_[a].is_known || estimates_[b].is_known;
+  known_points_.rename(tracks_[b].id, tracks_[a].id);
   estimates_[a].existence.merge(estimates_[b].existence);
   estimates_[a].neighbours.merge(estimates_[b].neighbours);
   for (Estimate& estimate : estimates_) estimate.neighbours.rename(tracks_[b].id, tracks_[a].id);

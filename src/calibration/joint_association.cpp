@@ -143,15 +143,15 @@ void JointAssociation::explain(const Pairing* start, int look_left_alone) {
   hypothesis.cost = estimate.squared_distance + gate_ * static_cast<double>(alone);
 }
 
-/// Starts from each pair that no explanation so far holds, where its look has a choice.
-void JointAssociation::try_other_explanations() {
+/// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.
+void JointAssociation::try_other_explanations(bool from_every_pairing) {
   for (std::size_t p = 0; p < pairings_.size(); ++p) {
     const auto look = static_cast<std::size_t>(pairings_[p].look);
     const auto end = hypotheses_.begin() + static_cast<std::ptrdiff_t>(hypothesis_count_);
     const bool is_held = std::any_of(hypotheses_.begin(), end, [&](const Hypothesis& hypothesis) {
       return hypothesis.pairing_of_look[look] == static_cast<int>(p);
     });
-    if (pairings_of_look_[look] > 1 && !is_held) explain(&pairings_[p], kNone);
+    if (from_every_pairing || (pairings_of_look_[look] > 1 && !is_held)) explain(&pairings_[p], kNone);
   }
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
     if (is_doubtful(look)) explain(nullptr, static_cast<int>(look));
@@ -163,7 +163,10 @@ int JointAssociation::track_of(const Hypothesis& hypothesis, std::size_t look) c
   return pairing == kNone ? kNone : pairings_[static_cast<std::size_t>(pairing)].track;
 }
 
-void JointAssociation::report(const Hypothesis& best) {
+void JointAssociation::report_best() {
+  const auto end = hypotheses_.begin() + static_cast<std::ptrdiff_t>(hypothesis_count_);
+  const Hypothesis& best = *std::min_element(
+      hypotheses_.begin(), end, [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; });
   for (std::size_t i = 0; i < matches_.size(); ++i) {
     Match& match = matches_[i];
     match.track = track_of(best, i);
@@ -193,10 +196,16 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
     return matches_;
   }
   explain(nullptr, kNone);
-  try_other_explanations();
-  const auto end = hypotheses_.begin() + static_cast<std::ptrdiff_t>(hypothesis_count_);
-  report(*std::min_element(hypotheses_.begin(), end,
-                           [](const Hypothesis& a, const Hypothesis& b) { return a.cost < b.cost; }));
+  try_other_explanations(false);
+  report_best();
+  return matches_;
+}
+
+const std::vector<JointAssociation::Match>& JointAssociation::solve_thoroughly() {
+  matches_.assign(pairings_of_look_.size(), Match{});
+  explain(nullptr, kNone);
+  try_other_explanations(true);
+  report_best();
   return matches_;
 }
 

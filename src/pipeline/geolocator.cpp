@@ -23,7 +23,7 @@ bool is_usable(const Detection& detection) {
 
 std::variant<PaperTracker, FullTracker> make_tracker(const GeolocatorConfig& config) {
   if (config.method == Method::kPaper) return PaperTracker(config.paper, config.max_detections);
-  return FullTracker(config.full, config.max_detections);
+  return FullTracker(config.full, config.known_points, config.max_detections);
 }
 
 bool may_be_cut(const Box& box, const CameraIntrinsics& image, double margin_px) {
@@ -50,6 +50,7 @@ std::vector<std::string> GeolocatorConfig::problems() const {
   found.add(projector.problems());
   found.add(paper.problems());
   found.add(full.problems());
+  for (const KnownPoint& point : known_points) found.add(point.problems());
   return found.take();
 }
 
@@ -77,6 +78,12 @@ std::optional<Calibration> Geolocator::calibration() const {
   return full->calibration_of_camera();
 }
 
+const std::vector<KnownPoints::Entry>& Geolocator::known_points() const {
+  static const std::vector<KnownPoints::Entry> none;
+  const auto* full = std::get_if<FullTracker>(&tracker_);
+  return full == nullptr ? none : full->known_points().entries();
+}
+
 Duration Geolocator::latency() const {
   const auto* full = std::get_if<FullTracker>(&tracker_);
   return full == nullptr ? Duration::zero() : from_seconds(full->calibration().latency_s());
@@ -102,11 +109,17 @@ bool Geolocator::process(const FrameDetections& frame) {
     return false;
   }
   ++counters_.frames_located;
+  place_known_points();
   view_ = {*vehicle, calibrated_camera_pose(*vehicle), frame.captured_at_host};
   select(frame.detections);
   locate();
   std::visit([&](auto& tracker) { tracker.update(located_, projector_, view_); }, tracker_);
   return true;
+}
+
+void Geolocator::place_known_points() {
+  auto* full = std::get_if<FullTracker>(&tracker_);
+  if (full != nullptr && !full->known_points().is_placed()) full->set_local_frame(*state_.local_frame());
 }
 
 void Geolocator::select(const std::vector<Detection>& detections) {

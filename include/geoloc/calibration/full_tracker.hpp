@@ -10,6 +10,7 @@
 #include "geoloc/calibration/existence.hpp"
 #include "geoloc/calibration/full_tracker_config.hpp"
 #include "geoloc/calibration/joint_association.hpp"
+#include "geoloc/calibration/known_points.hpp"
 #include "geoloc/calibration/linearize.hpp"
 #include "geoloc/calibration/neighbours.hpp"
 #include "geoloc/tracking/frame_view.hpp"
@@ -23,7 +24,10 @@ class FullTracker {
  public:
   /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
   /// given.
-  FullTracker(const FullTrackerConfig& config, int max_detections);
+  FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint> known_points, int max_detections);
+
+  /// The frame of all positions, before the first update().
+  void set_local_frame(const LocalFrame& frame) { known_points_.place(frame); }
 
   /// One frame: its detections in a canonical order, located with calibration() applied to the view.
   void update(const std::vector<LocatedDetection>& detections, const Projector& projector,
@@ -32,6 +36,8 @@ class FullTracker {
   /// Tentative and confirmed, in order of their ids.
   const std::vector<Track>& tracks() const { return tracks_; }
   const TrackCounters& counters() const { return counters_; }
+
+  const KnownPoints& known_points() const { return known_points_; }
 
   /// What looks are located with: the camera's constant errors and those of the autopilot's state in one.
   const Calibration& calibration() const { return calibration_; }
@@ -46,6 +52,7 @@ class FullTracker {
     Existence existence{0.5};
     Neighbours neighbours;
     VehicleTime last_look{};
+    bool is_known = false;                                        // its surveyed place is in the sums
     Eigen::Matrix2d pixel_information = Eigen::Matrix2d::Zero();  // sum of the looks'
     double size_m = 0.0;                                          // apparent, mean
     Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();     // A^-1
@@ -82,6 +89,8 @@ class FullTracker {
   void start_tentative(HostTime captured_at);
   void remove_improbable();
   void solve_if_due(VehicleTime now);
+  void solve();
+  void state_covariances();
   void merge_compatible();
   bool may_be_one(std::size_t a, std::size_t b) const;
   Eigen::Matrix2d covariance_of_difference(std::size_t a, std::size_t b) const;
@@ -93,6 +102,9 @@ class FullTracker {
   void remove(std::size_t track);
   double detection_probability(std::size_t track, const Projector& projector, const FrameView& view) const;
   void learn_wandering();
+  void cover_known_points(const Projector& projector, const FrameView& view);
+  bool match_known_points();
+  Eigen::Vector2d shown_in_frame(const Eigen::Vector2d& position_in_enu) const;
   double reported_sigma_m() const;
   double sigma_offset_m() const;
 
@@ -100,6 +112,8 @@ class FullTracker {
   DriftTimeline drift_;
   ArrowheadSolver solver_;
   Calibration calibration_;
+  KnownPoints known_points_;
+  std::vector<KnownPoints::Candidate> known_candidates_;  // scratch
 
   std::vector<Track> tracks_;
   std::vector<Estimate> estimates_;

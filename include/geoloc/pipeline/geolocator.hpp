@@ -62,9 +62,13 @@ class Geolocator {
   /// What was learnt of the constant errors; nullopt where the method learns none.
   std::optional<Calibration> calibration() const;
 
+  /// What became of the known points, in the order of the configuration; empty where the method uses none.
+  const std::vector<KnownPoints::Entry>& known_points() const;
+
   /// The frame of all positions; set by the first position of the vehicle.
   const std::optional<LocalFrame>& local_frame() const { return state_.local_frame(); }
 
+  const GeolocatorConfig& config() const { return config_; }
   const StateProvider& state() const { return state_; }
   const Projector& projector() const { return projector_; }
   const TrackCounters& track_counters() const;
@@ -73,6 +77,7 @@ class Geolocator {
  private:
   Duration latency() const;
   Rigid3d calibrated_camera_pose(const VehicleState& vehicle) const;
+  void place_known_points();
   void select(const std::vector<Detection>& detections);
   void locate();
 

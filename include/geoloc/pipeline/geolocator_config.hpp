@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geoloc/calibration/full_tracker_config.hpp"
+#include "geoloc/calibration/known_points.hpp"
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
@@ -32,6 +33,7 @@ struct GeolocatorConfig {
   ProjectorConfig projector;
   PaperTrackerConfig paper;
   FullTrackerConfig full;
+  std::vector<KnownPoint> known_points;  ///< of Method::kFull
 
   /// Every fault at once, named by its JSON path; empty where a Geolocator can be built.
   std::vector<std::string> problems() const;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geoloc/io/config/known_points_file.hpp"
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/camera_file.hpp"
 
@@ -150,6 +151,7 @@ nlohmann::ordered_json geolocator_to_json(const GeolocatorConfig& config) {
   visit_fields(writer, copy);
   auto json = writer.take();
   json["camera"] = camera_to_json(config.camera);
+  json["known_points"] = known_points_to_json(config.known_points);
   return json;
 }
 
@@ -159,6 +161,10 @@ void geolocator_from_json(const nlohmann::json& object, GeolocatorConfig& config
   if (object.is_object() && object.contains("camera")) {
     read_camera(object["camera"], config.camera, problems);
     rest.erase("camera");
+  }
+  if (object.is_object() && object.contains("known_points")) {
+    known_points_from_json(object["known_points"], config.known_points, problems);
+    rest.erase("known_points");
   }
   FieldReader reader(rest, "", problems);
   visit_fields(reader, config);

@@ -73,16 +73,43 @@ ordered_json to_calibration(const std::optional<Calibration>& calibration) {
   return json;
 }
 
+const char* name_of(KnownPointStatus status) {
+  switch (status) {
+    case KnownPointStatus::kNotCovered:
+      return "not covered";
+    case KnownPointStatus::kNoObject:
+      return "no object agrees";
+    case KnownPointStatus::kAmbiguous:
+      return "ambiguous";
+    case KnownPointStatus::kMatched:
+      return "matched";
+  }
+  return "";
+}
+
+ordered_json to_references(const Geolocator& geolocator) {
+  auto references = ordered_json::array();
+  const auto& entries = geolocator.known_points();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    ordered_json reference{{"id", geolocator.config().known_points[i].name},
+                           {"status", name_of(entries[i].status)}};
+    if (entries[i].status == KnownPointStatus::kMatched) reference["object"] = entries[i].track_id;
+    references.push_back(std::move(reference));
+  }
+  return references;
+}
+
 }  // namespace
 
 std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const Geolocator& geolocator) {
   auto features = ordered_json::array();
   for (const ObjectReport& object : objects) features.push_back(to_feature(object));
-  const ordered_json collection{{"type", "FeatureCollection"},
-                                {"method", geolocator.calibration() ? "full" : "paper"},
-                                {"calibration", to_calibration(geolocator.calibration())},
-                                {"counters", to_counters(geolocator)},
-                                {"features", std::move(features)}};
+  ordered_json collection{{"type", "FeatureCollection"},
+                          {"method", geolocator.calibration() ? "full" : "paper"},
+                          {"calibration", to_calibration(geolocator.calibration())},
+                          {"counters", to_counters(geolocator)}};
+  if (!geolocator.known_points().empty()) collection["references"] = to_references(geolocator);
+  collection["features"] = std::move(features);
   // Class names come from models and may hold anything; bytes that are not UTF-8 are replaced.
   return collection.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }

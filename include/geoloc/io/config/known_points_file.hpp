@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "geoloc/calibration/known_points.hpp"
+
+namespace geoloc::io {
+
+/// GeoJSON Points (WGS84) of surveyed objects; properties, all optional: `id` (text or number), `class_id`,
+/// `sigma_m` (0.05). Throws std::runtime_error with file, feature and reason.
+std::vector<KnownPoint> read_known_points(const std::filesystem::path& file);
+
+/// The same from the file's text; `name` stands for the file in messages.
+std::vector<KnownPoint> parse_known_points(const std::string& text, const std::string& name);
+
+/// As a setting: a list of objects. What is wrong in such a list is added to `problems`.
+nlohmann::ordered_json known_points_to_json(const std::vector<KnownPoint>& points);
+void known_points_from_json(const nlohmann::json& list, std::vector<KnownPoint>& points,
+                            std::vector<std::string>& problems);
+
+}  // namespace geoloc::io

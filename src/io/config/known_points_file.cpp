@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/config/known_points_file.hpp"
+
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "geoloc/io/json/fields.hpp"
+
+namespace geoloc {
+
+template <class Visitor>
+void visit_fields(Visitor& v, Geodetic& position) {
+  v.field("latitude_deg", position.latitude_deg, "deg, WGS84");
+  v.field("longitude_deg", position.longitude_deg, "deg, WGS84");
+}
+
+namespace io {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kAnyClass = -1;
+
+template <class Visitor>
+void visit_point(Visitor& v, KnownPoint& point, int& class_id) {
+  v.field("name", point.name, "in messages");
+  visit_fields(v, point.position);
+  v.field("sigma_m", point.sigma_m, "m, of the survey, an axis");
+  v.field("class_id", class_id, "-1: any");
+}
+
+double number(const json& value, const char* what) {
+  if (!value.is_number()) throw std::invalid_argument(std::string(what) + " must be a number");
+  return value.get<double>();
+}
+
+KnownPoint parse_point(const json& feature, std::size_t place) {
+  const json none;
+  const auto member = [&none](const json& object, const char* key) -> const json& {
+    const auto found = object.is_object() ? object.find(key) : object.end();
+    return object.is_object() && found != object.end() ? *found : none;
+  };
+  const json& coordinates = member(member(feature, "geometry"), "coordinates");
+  if (!coordinates.is_array() || coordinates.size() < 2)
+    throw std::invalid_argument("must be a Point with coordinates [lon, lat]");
+  KnownPoint point;
+  point.position = {number(coordinates[1], "latitude"), number(coordinates[0], "longitude")};
+  const json& properties = member(feature, "properties");
+  const json& id = member(properties, "id");
+  point.name = id.is_string() ? id.get<std::string>() : id.is_number() ? id.dump() : std::to_string(place);
+  if (const json& sigma = member(properties, "sigma_m"); !sigma.is_null())
+    point.sigma_m = number(sigma, "sigma_m");
+  if (const json& class_id = member(properties, "class_id"); !class_id.is_null()) {
+    if (!class_id.is_number_unsigned() || class_id.get<std::uint64_t>() > 1'000'000)
+      throw std::invalid_argument("class_id must be a whole number from 0");
+    point.class_id = class_id.get<int>();
+  }
+  for (const std::string& problem : point.problems())
+    throw std::invalid_argument(problem + " (lon, lat order?)");
+  return point;
+}
+
+}  // namespace
+
+std::vector<KnownPoint> parse_known_points(const std::string& text, const std::string& name) {
+  const json document = json::parse(text, nullptr, false);
+  if (document.is_discarded() || !document.is_object() || !document.contains("features") ||
+      !document["features"].is_array()) {
+    throw std::runtime_error(name + ": not a GeoJSON FeatureCollection");
+  }
+  std::vector<KnownPoint> points;
+  for (const json& feature : document["features"]) {
+    try {
+      points.push_back(parse_point(feature, points.size()));
+    } catch (const std::exception& error) {
+      throw std::runtime_error(name + ": feature " + std::to_string(points.size()) + ": " + error.what());
+    }
+  }
+  if (points.empty()) throw std::runtime_error(name + ": holds no point");
+  return points;
+}
+
+std::vector<KnownPoint> read_known_points(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw std::runtime_error(file.string() + ": cannot be opened");
+  return parse_known_points({std::istreambuf_iterator<char>(stream), {}}, file.string());
+}
+
+nlohmann::ordered_json known_points_to_json(const std::vector<KnownPoint>& points) {
+  auto list = nlohmann::ordered_json::array();
+  for (KnownPoint point : points) {
+    int class_id = point.class_id.value_or(kAnyClass);
+    FieldWriter writer;
+    visit_point(writer, point, class_id);
+    list.push_back(writer.take());
+  }
+  return list;
+}
+
+void known_points_from_json(const json& list, std::vector<KnownPoint>& points,
+                            std::vector<std::string>& problems) {
+  if (!list.is_array()) {
+    problems.emplace_back("known_points must be a list");
+    return;
+  }
+  points.clear();
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    KnownPoint point;
+    int class_id = kAnyClass;
+    FieldReader reader(list[i], "known_points[" + std::to_string(i) + "]", problems);
+    visit_point(reader, point, class_id);
+    reader.refuse_unknown();
+    if (class_id != kAnyClass) point.class_id = class_id;
+    points.push_back(point);
+  }
+}
+
+}  // namespace io
+}  // namespace geoloc
