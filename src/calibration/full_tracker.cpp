@@ -442,7 +442,7 @@ void FullTracker::absorb_matched(HostTime captured_at) {
 
 void FullTracker::start_tentative(HostTime captured_at) {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if ((*matches_)[i].track != JointAssociation::kNone || (*matches_)[i].is_ambiguous) continue;
+    if ((*matches_)[i].track != JointAssociation::kNone) continue;
     if (tracks_.size() >= static_cast<std::size_t>(config_.max_tracks)) {
       ++counters_.refused;
       continue;

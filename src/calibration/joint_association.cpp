@@ -3,12 +3,16 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 
 #include "geoloc/tracking/gaussian.hpp"
 
 namespace geoloc {
 namespace {
 
+/// Of a look that shows no known track, in the units of a squared distance plus the logarithm of its
+/// covariance's determinant: -2 ln(2 pi density), where objects not known yet stand one to 100 m^2.
+constexpr double kCostAlone = 5.53;
 /// Explanations tried of one frame.
 constexpr std::size_t kMostHypotheses = 32;
 /// A look farther from its track than this share of the gate may as well be of something new.
@@ -72,9 +76,11 @@ void JointAssociation::add(const Pairing& pairing) {
 
 void JointAssociation::Estimate::add(const Pairing& pairing) {
   const Eigen::Matrix<double, SharedError::kSize, 2> crossed = covariance * pairing.jacobian.transpose();
-  const Eigen::Matrix2d information = (pairing.own_covariance + pairing.jacobian * crossed).inverse();
+  const Eigen::Matrix2d innovation_covariance = pairing.own_covariance + pairing.jacobian * crossed;
+  const Eigen::Matrix2d information = innovation_covariance.inverse();
   const Eigen::Vector2d innovation = pairing.residual - pairing.jacobian * mean;
-  squared_distance += innovation.dot(information * innovation) + pairing.penalty;
+  cost += innovation.dot(information * innovation) + std::log(innovation_covariance.determinant()) +
+          pairing.penalty;
   const Eigen::Matrix<double, SharedError::kSize, 2> gain = crossed * information;
   mean += gain * innovation;
   covariance -= gain * crossed.transpose();
@@ -140,7 +146,7 @@ void JointAssociation::explain(const Pairing* start, int look_left_alone) {
   }
   const auto alone = std::count(hypothesis.pairing_of_look.begin(), hypothesis.pairing_of_look.end(), kNone);
   hypothesis.estimate = estimate;
-  hypothesis.cost = estimate.squared_distance + gate_ * static_cast<double>(alone);
+  hypothesis.cost = estimate.cost + kCostAlone * static_cast<double>(alone);
 }
 
 /// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.

@@ -72,7 +72,7 @@ class JointAssociation {
   struct Estimate {
     SharedError::Vector mean = SharedError::Vector::Zero();
     SharedError::Matrix covariance = SharedError::Matrix::Zero();
-    double squared_distance = 0.0;  // of the pairs, jointly
+    double cost = 0.0;  // of the pairs, jointly: -2 ln of their probability density, but for a constant
 
     void add(const Pairing& pairing);
   };
