@@ -8,8 +8,8 @@
 #include "common/command_line.hpp"
 #include "common/progress.hpp"
 #include "eval/experiment.hpp"
-#include "eval/report.hpp"
-#include "geoloc/io/atomic_file.hpp"
+#include "eval/report_folder.hpp"
+#include "eval/sweep.hpp"
 #include "geoloc/sim/flight.hpp"
 
 namespace {
@@ -22,14 +22,15 @@ struct Options {
   std::string method = "both";
   std::vector<std::uint64_t> seeds{0, 1, 2};
   std::string config_file;
+  std::string sweep;
   std::string report_folder;
   std::optional<std::filesystem::path> data_folder;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
 };
 
 void add_options(CLI::App& program, Options& options) {
-  program.add_option("--flights", options.flights, "Which set of flights")
-      ->check(CLI::IsMember({"stock", "gnss", "all"}))
+  program.add_option("--flights", options.flights, "Which set of flights in the table")
+      ->check(CLI::IsMember({"stock", "gnss", "all", "none"}))
       ->capture_default_str();
   program.add_option("--method", options.method, "Which estimator")
       ->check(CLI::IsMember({"paper", "full", "both"}))
@@ -37,8 +38,10 @@ void add_options(CLI::App& program, Options& options) {
   program.add_option("--seeds", options.seeds, "Seeds of targets and errors")
       ->delimiter(',')
       ->capture_default_str();
+  program.add_option("--sweep", options.sweep, "Vary one circumstance as well: its name, or all [none]")
+      ->type_name("NAME");
   program.add_option("--config", options.config_file, "Settings of the estimator, JSON")->type_name("FILE");
-  program.add_option("--report", options.report_folder, "Write report.md and report.json here")
+  program.add_option("--report", options.report_folder, "Write report.md, report.json and pictures here")
       ->type_name("DIR");
   program.add_option("--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
   program.add_option("--threads", options.threads, "Runs at once")
@@ -46,15 +49,17 @@ void add_options(CLI::App& program, Options& options) {
       ->capture_default_str();
 }
 
+std::vector<std::string> flights_of_set(const std::string& set) {
+  std::vector<std::string> flights;
+  for (int path = 1; path <= 6; ++path) flights.push_back(set + "_path" + std::to_string(path));
+  return flights;
+}
+
+/// Without flights: table and sweeps fly different ones.
 Experiment make_experiment(const Options& options) {
   Experiment experiment;
   experiment.flights_folder =
       sim::find_flights(options.data_folder, std::filesystem::read_symlink("/proc/self/exe"));
-  for (const char* set : {"stock", "gnss"}) {
-    if (options.flights != "all" && options.flights != set) continue;
-    for (int path = 1; path <= 6; ++path)
-      experiment.flights.push_back(std::string(set) + "_path" + std::to_string(path));
-  }
   if (options.method == "paper") experiment.methods = {Method::kPaper};
   if (options.method == "full") experiment.methods = {Method::kFull};
   experiment.seeds = options.seeds;
@@ -67,6 +72,31 @@ Experiment make_experiment(const Options& options) {
   return experiment;
 }
 
+std::vector<RunResult> run_table(Experiment experiment, const Options& options) {
+  for (const char* set : {"stock", "gnss"}) {
+    if (options.flights != "all" && options.flights != set) continue;
+    for (std::string& flight : flights_of_set(set)) experiment.flights.push_back(std::move(flight));
+  }
+  ProgressLine progress("runs",
+                        experiment.flights.size() * experiment.scenarios.size() * experiment.seeds.size());
+  const auto results = run_experiment(experiment, options.threads,
+                                      [&](std::size_t done, std::size_t) { progress.show(done); });
+  progress.finish();
+  return results;
+}
+
+std::vector<SweepResult> run_sweeps(Experiment experiment, const std::vector<Sweep>& sweeps,
+                                    const Options& options) {
+  experiment.flights = flights_of_set("stock");
+  std::size_t steps = 0;
+  for (const Sweep& sweep : sweeps) steps += sweep.values.size() * experiment.flights.size();
+  ProgressLine progress("sweeps", steps);
+  auto results = run_sweeps(experiment, sweeps, options.threads,
+                            [&](std::size_t done, std::size_t) { progress.show(done); });
+  progress.finish();
+  return results;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -76,21 +106,19 @@ int main(int argc, char** argv) {
   if (const auto status = parse(program, argc, argv)) return *status;
 
   Experiment experiment;
-  const auto unusable = guard("geoloc_eval", kUnusable, [&] { experiment = make_experiment(options); });
+  std::vector<Sweep> sweeps;
+  const auto unusable = guard("geoloc_eval", kUnusable, [&] {
+    experiment = make_experiment(options);
+    if (!options.sweep.empty()) sweeps = find_sweeps(options.sweep);
+  });
   if (unusable) return *unusable;
 
   const auto failed = guard("geoloc_eval", kFailed, [&] {
-    ProgressLine progress("runs",
-                          experiment.flights.size() * experiment.scenarios.size() * experiment.seeds.size());
-    const auto results = run_experiment(experiment, options.threads,
-                                        [&](std::size_t done, std::size_t) { progress.show(done); });
-    progress.finish();
+    EvalResults results;
+    results.runs = run_table(experiment, options);
+    results.sweeps = run_sweeps(experiment, sweeps, options);
     std::fputs(to_markdown(results).c_str(), stdout);
-    if (options.report_folder.empty()) return;
-    const std::filesystem::path folder(options.report_folder);
-    std::filesystem::create_directories(folder);
-    io::write_file_atomically(folder / "report.md", to_markdown(results));
-    io::write_file_atomically(folder / "report.json", to_json(results));
+    if (!options.report_folder.empty()) write_report(options.report_folder, results);
   });
   return failed.value_or(kDone);
 }

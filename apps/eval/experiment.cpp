@@ -2,13 +2,11 @@
 #include "eval/experiment.hpp"
 
 #include <Eigen/Geometry>
-#include <atomic>
-#include <exception>
 #include <mutex>
-#include <thread>
 
 #include "common/replay.hpp"
 #include "common/run_outputs.hpp"
+#include "eval/parallel.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/sim/flight.hpp"
 #include "geoloc/sim/scenario.hpp"
@@ -34,6 +32,8 @@ std::optional<CalibrationError> calibration_error(const Session& session, const 
   const Eigen::Vector3d injected_rad = wrap_to_pi(turn.angle()) * turn.axis();
   using Index = CalibrationIndex;
   CalibrationError error;
+  error.injected_latency_s = run.errors.latency_s;
+  error.injected_boresight_deg = injected_rad.head<2>() * kDegPerRad;
   error.latency_s = estimated->latency_s() - run.errors.latency_s;
   error.sigma_latency_s = estimated->sigma(Index::kLatency);
   error.boresight_deg = (estimated->boresight_rad() - injected_rad).head<2>() * kDegPerRad;
@@ -52,46 +52,28 @@ void run_task(const Experiment& experiment, const Task& task, std::vector<RunRes
   const auto truth = sim::true_targets(targets_in_enu, task.flight->truth.frame());
 
   for (std::size_t m = 0; m < experiment.methods.size(); ++m) {
-    EstimationConfig config = experiment.estimation;
-    config.geolocator.camera = sim::nominal_camera(settings.run);
-    config.geolocator.method = experiment.methods[m];
-    Session session(config);
-    replay(task.flight->telemetry, frames, session);
-    RunResult& result = results[task.first_result + m];
-    result.flight = task.flight->name;
-    result.scenario = task.scenario;
-    result.seed = task.seed;
-    result.method = experiment.methods[m];
-    result.score = score_run(session, truth);
-    result.nees = consistency_of_run(session, truth, result.score);
-    result.calibration = calibration_error(session, settings.run, *task.flight);
+    results[task.first_result + m] =
+        run_method({*task.flight, settings.run, frames, truth}, experiment.methods[m], experiment.estimation);
   }
 }
 
-/// Runs step(i) for i below `count` on several threads; the first exception is passed on.
-void parallel_for(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& step) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < count; i = next++) {
-      try {
-        step(i);
-      } catch (...) {
-        const std::lock_guard lock(failure_mutex);
-        if (!failure) failure = std::current_exception();
-        next = count;
-      }
-    }
-  };
-  std::vector<std::thread> crew;
-  for (unsigned i = 1; i < threads; ++i) crew.emplace_back(work);
-  work();
-  for (std::thread& member : crew) member.join();
-  if (failure) std::rethrow_exception(failure);
-}
-
 }  // namespace
+
+RunResult run_method(const SimulatedRun& run, Method method, EstimationConfig config) {
+  config.geolocator.camera = sim::nominal_camera(run.settings);
+  config.geolocator.method = method;
+  Session session(config);
+  replay(run.flight.telemetry, run.frames, session);
+  RunResult result;
+  result.flight = run.flight.name;
+  result.scenario = run.settings.scenario;
+  result.seed = run.settings.seed;
+  result.method = method;
+  result.score = score_run(session, run.truth);
+  result.nees = consistency_of_run(session, run.truth, result.score);
+  result.calibration = calibration_error(session, run.settings, run.flight);
+  return result;
+}
 
 std::vector<RunResult> run_experiment(
     const Experiment& experiment, unsigned threads,

@@ -31,6 +31,8 @@ struct CalibrationError {
   double sigma_latency_s = 0.0;
   Eigen::Vector2d boresight_deg = Eigen::Vector2d::Zero();  ///< about the camera's x and y
   Eigen::Vector2d sigma_boresight_deg = Eigen::Vector2d::Zero();
+  double injected_latency_s = 0.0;
+  Eigen::Vector2d injected_boresight_deg = Eigen::Vector2d::Zero();
 };
 
 struct RunResult {
@@ -42,6 +44,17 @@ struct RunResult {
   double nees = 0.0;  ///< mean over the objects found; 2 is right
   std::optional<CalibrationError> calibration;
 };
+
+/// What an estimator is given, and what only its judge knows.
+struct SimulatedRun {
+  const sim::Flight& flight;
+  const sim::RunSettings& settings;
+  const std::vector<io::RecordedFrame>& frames;
+  const std::vector<io::TrueTarget>& truth;
+};
+
+/// One method on one run. Camera and method of `config` are set here.
+RunResult run_method(const SimulatedRun& run, Method method, EstimationConfig config);
 
 /// All runs, in the order flight, scenario, seed, method, whatever the number of threads. `on_run` is called
 /// after each, from any thread, one at a time. Throws std::runtime_error for a flight that cannot be loaded.

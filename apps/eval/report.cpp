@@ -6,20 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 namespace geoloc::apps {
 namespace {
-
-const char* name_of(Method method) {
-  switch (method) {
-    case Method::kPaper:
-      return "paper";
-    case Method::kFull:
-      return "full";
-  }
-  return "";
-}
 
 /// stock_path1 belongs to the set stock.
 std::string set_of(const std::string& flight) {
@@ -83,6 +72,16 @@ std::vector<std::string> flights_of(const std::vector<RunResult>& results, const
 
 }  // namespace
 
+const char* name_of(Method method) {
+  switch (method) {
+    case Method::kPaper:
+      return "paper";
+    case Method::kFull:
+      return "full";
+  }
+  return "";
+}
+
 std::vector<Summary> summarize(const std::vector<RunResult>& results) {
   std::vector<Summary> summaries;
   for (const RunResult& run : results) {
@@ -130,7 +129,7 @@ std::string to_markdown(const std::vector<RunResult>& results) {
   return text;
 }
 
-std::string to_json(const std::vector<RunResult>& results) {
+nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
   auto runs = nlohmann::ordered_json::array();
   for (const RunResult& run : results) {
     runs.push_back({{"flight", run.flight},
@@ -162,7 +161,7 @@ std::string to_json(const std::vector<RunResult>& results) {
                          {"worst_boresight_error_deg", s.worst_boresight_error_deg},
                          {"worst_error_in_sigmas", s.worst_sigmas}});
   }
-  return nlohmann::ordered_json{{"summaries", summaries}, {"runs", runs}}.dump(1) + "\n";
+  return {{"summaries", summaries}, {"runs", runs}};
 }
 
 }  // namespace geoloc::apps

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "eval/experiment.hpp"
 
 namespace geoloc::apps {
+
+const char* name_of(Method method);
 
 /// Means over the runs of one set of flights (stock, gnss), method and, unless nullopt, seed.
 struct Summary {
@@ -32,7 +35,7 @@ std::vector<Summary> summarize(const std::vector<RunResult>& results);
 /// The paper's table 1 for each set and method (means over the seeds), and the summaries.
 std::string to_markdown(const std::vector<RunResult>& results);
 
-/// Every run and every summary.
-std::string to_json(const std::vector<RunResult>& results);
+/// Every run and every summary: "summaries", "runs".
+nlohmann::ordered_json to_json(const std::vector<RunResult>& results);
 
 }  // namespace geoloc::apps

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/report_folder.hpp"
+
+#include <fmt/format.h>
+
+#include "eval/report.hpp"
+#include "eval/sweep_report.hpp"
+#include "geoloc/io/atomic_file.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+/// Empty for an empty text.
+std::string named_block(const char* name, const std::string& text) {
+  return text.empty() ? "" : fmt::format("<!-- begin {0} -->\n{1}<!-- end {0} -->\n", name, text);
+}
+
+std::string to_json_text(const EvalResults& results) {
+  auto document = to_json(results.runs);
+  if (!results.sweeps.empty()) document["sweeps"] = sweeps_to_json(results.sweeps);
+  return document.dump(1) + "\n";
+}
+
+}  // namespace
+
+std::string to_markdown(const EvalResults& results) {
+  return named_block("table", results.runs.empty() ? "" : to_markdown(results.runs)) +
+         named_block("sweeps", sweeps_to_markdown(results.sweeps));
+}
+
+void write_report(const std::filesystem::path& folder, const EvalResults& results) {
+  std::filesystem::create_directories(folder);
+  io::write_file_atomically(folder / "report.md", to_markdown(results));
+  io::write_file_atomically(folder / "report.json", to_json_text(results));
+  for (const SweepResult& result : results.sweeps) {
+    io::write_file_atomically(folder / ("sweep_" + result.sweep.name + ".svg"),
+                              to_svg_file(chart_of(result)));
+  }
+}
+
+}  // namespace geoloc::apps
