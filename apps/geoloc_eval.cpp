@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "common/command_line.hpp"
+#include "common/data_files.hpp"
 #include "common/progress.hpp"
 #include "eval/experiment.hpp"
 #include "eval/report_folder.hpp"
@@ -20,9 +21,12 @@ using namespace geoloc::apps;
 struct Options {
   std::string flights = "all";
   std::string method = "both";
+  std::vector<int> scenarios{1, 2, 3};
   std::vector<std::uint64_t> seeds{0, 1, 2};
   std::string config_file;
   std::string sweep;
+  bool is_rendered = false;
+  RenderedSettings rendered;
   std::string report_folder;
   std::optional<std::filesystem::path> data_folder;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
@@ -35,11 +39,21 @@ void add_options(CLI::App& program, Options& options) {
   program.add_option("--method", options.method, "Which estimator")
       ->check(CLI::IsMember({"paper", "full", "both"}))
       ->capture_default_str();
+  program.add_option("--scenarios", options.scenarios, "Targets: 1 spread, 2 tight clusters, 3 grid")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 3))
+      ->capture_default_str();
   program.add_option("--seeds", options.seeds, "Seeds of targets and errors")
       ->delimiter(',')
       ->capture_default_str();
   program.add_option("--sweep", options.sweep, "Vary one circumstance as well: its name, or all [none]")
       ->type_name("NAME");
+  program.add_flag(
+      "--rendered", options.is_rendered,
+      "Also draw every frame of one flight and let the detector find the targets; takes minutes");
+  program.add_option("--rendered-flight", options.rendered.flight, "Which one")->capture_default_str();
+  program.add_option("--rendered-s", options.rendered.length_s, "So much of its survey, s [all]")
+      ->check(CLI::Range(1.0, 1e4));
   program.add_option("--config", options.config_file, "Settings of the estimator, JSON")->type_name("FILE");
   program.add_option("--report", options.report_folder, "Write report.md, report.json and pictures here")
       ->type_name("DIR");
@@ -62,6 +76,7 @@ Experiment make_experiment(const Options& options) {
       sim::find_flights(options.data_folder, std::filesystem::read_symlink("/proc/self/exe"));
   if (options.method == "paper") experiment.methods = {Method::kPaper};
   if (options.method == "full") experiment.methods = {Method::kFull};
+  experiment.scenarios = options.scenarios;
   experiment.seeds = options.seeds;
   if (!options.config_file.empty()) {
     std::vector<std::string> problems;
@@ -97,6 +112,18 @@ std::vector<SweepResult> run_sweeps(Experiment experiment, const std::vector<Swe
   return results;
 }
 
+std::vector<RenderedRun> run_rendered(const Experiment& experiment, const Options& options) {
+  RenderedSettings settings = options.rendered;
+  settings.seed = options.seeds.front();
+  std::optional<ProgressLine> progress;
+  auto runs = run_rendered(experiment, settings, options.threads, [&](std::size_t done, std::size_t total) {
+    if (!progress) progress.emplace("pictures", total);
+    progress->show(done);
+  });
+  if (progress) progress->finish();
+  return runs;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -110,6 +137,10 @@ int main(int argc, char** argv) {
   const auto unusable = guard("geoloc_eval", kUnusable, [&] {
     experiment = make_experiment(options);
     if (!options.sweep.empty()) sweeps = find_sweeps(options.sweep);
+    if (options.is_rendered) {
+      sim::load_flight(experiment.flights_folder, options.rendered.flight);  // refuses an unknown one
+      options.rendered.model = find_data_file("models/fiducial.onnx");
+    }
   });
   if (unusable) return *unusable;
 
@@ -117,6 +148,7 @@ int main(int argc, char** argv) {
     EvalResults results;
     results.runs = run_table(experiment, options);
     results.sweeps = run_sweeps(experiment, sweeps, options);
+    if (options.is_rendered) results.rendered = run_rendered(experiment, options);
     std::fputs(to_markdown(results).c_str(), stdout);
     if (!options.report_folder.empty()) write_report(options.report_folder, results);
   });

@@ -13,7 +13,7 @@ namespace {
 
 // One size for all drawings, small enough to be read on a telephone without zooming.
 constexpr double kWidth = 460.0;
-constexpr double kLeft = 72.0;
+constexpr double kLeft = 78.0;
 constexpr double kRight = kWidth - 18.0;
 constexpr double kTop = 56.0;
 constexpr double kPlotHeight = 210.0;
@@ -37,13 +37,13 @@ class AxisScale {
  public:
   AxisScale(const ChartAxis& axis, Range range, double from_px, double to_px)
       : is_logarithmic_(axis.is_logarithmic), from_px_(from_px), to_px_(to_px) {
+    for (const double tick : axis.ticks) range.add(tick);
     if (range.is_empty()) range = {1.0, 2.0};
     low_ = along(range.low);
     high_ = along(range.high);
     const double border = high_ > low_ ? 0.05 * (high_ - low_) : 0.5;
     low_ -= border;
     high_ += border;
-    if (!is_logarithmic_ && range.low >= 0.0) low_ = std::max(low_, range.low > 0.0 ? 0.0 : -0.4 * border);
     ticks_ = axis.ticks.empty() ? round_ticks() : axis.ticks;
   }
 
@@ -99,6 +99,7 @@ Plane plane_of(const Chart& chart) {
       }
     }
   }
+  if (chart.right_y) y.add(*chart.right_y);
   return {AxisScale(chart.x, x, kLeft, kRight), AxisScale(chart.y, y, kBottom, kTop)};
 }
 
@@ -107,14 +108,15 @@ void draw_axes(const Chart& chart, const Plane& plane, std::string& svg) {
   for (const double tick : plane.y.ticks()) {
     const double y = plane.y.px(tick);
     fmt::format_to(out, "<path class=\"gc-grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", kLeft, y, kRight);
-    fmt::format_to(out, "<text class=\"gc-tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:g}</text>\n",
+    fmt::format_to(out,
+                   "<text class=\"gc-tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"end\">{:.4g}</text>\n",
                    kLeft - 7.0, y + 4.0, tick);
   }
   for (const double tick : plane.x.ticks()) {
     const double x = plane.x.px(tick);
     fmt::format_to(out, "<path class=\"gc-grid\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>", x, kTop, kBottom);
     fmt::format_to(out,
-                   "<text class=\"gc-tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:g}</text>\n",
+                   "<text class=\"gc-tick\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.4g}</text>\n",
                    x, kBottom + 16.0, tick);
   }
   fmt::format_to(out, "<path class=\"gc-axis\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n", kLeft, kTop, kBottom,
@@ -133,6 +135,10 @@ void draw_guides(const Chart& chart, const Plane& plane, std::string& svg) {
     fmt::format_to(out, "<path class=\"gc-guide\" d=\"M{:.1f} {:.1f}V{:.1f}\"/>\n",
                    plane.x.px(*chart.usual_x), kTop, kBottom);
   }
+  if (chart.right_y && plane.y.holds(*chart.right_y)) {
+    const double y = plane.y.px(*chart.right_y);
+    fmt::format_to(out, "<path class=\"gc-guide\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n", kLeft, y, kRight);
+  }
   if (!chart.has_diagonal) return;
   const double low = std::max(plane.x.low(), plane.y.low()), high = std::min(plane.x.high(), plane.y.high());
   if (!(low < high)) return;
@@ -140,7 +146,7 @@ void draw_guides(const Chart& chart, const Plane& plane, std::string& svg) {
                  plane.y.px(low), plane.x.px(high), plane.y.px(high));
 }
 
-/// A disc, a square, a triangle, a diamond: told apart without colours.
+/// A square, a disc, a diamond, a triangle: told apart without colours.
 void draw_mark(double x, double y, int style, double radius, std::string& svg) {
   const auto out = std::back_inserter(svg);
   switch (style % kStyles) {
@@ -153,9 +159,15 @@ void draw_mark(double x, double y, int style, double radius, std::string& svg) {
       fmt::format_to(out, "<circle class=\"gc-m gc-1\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{:.1f}\"/>", x, y,
                      radius);
       break;
+    case 2:
+      fmt::format_to(out,
+                     "<path class=\"gc-m gc-2\" d=\"M{0:.1f} {1:.1f}l{2:.1f} {2:.1f}l-{2:.1f} "
+                     "{2:.1f}l-{2:.1f} -{2:.1f}z\"/>",
+                     x, y - 1.2 * radius, 1.2 * radius);
+      break;
     default:
-      fmt::format_to(out, "<path class=\"gc-m gc-{}\" d=\"M{:.1f} {:.1f}l{:.1f} {:.1f}h-{:.1f}z\"/>",
-                     style % kStyles, x, y - 1.1 * radius, 1.1 * radius, 1.9 * radius, 2.2 * radius);
+      fmt::format_to(out, "<path class=\"gc-m gc-3\" d=\"M{:.1f} {:.1f}l{:.1f} {:.1f}h-{:.1f}z\"/>", x,
+                     y - 1.1 * radius, 1.1 * radius, 1.9 * radius, 2.2 * radius);
   }
 }
 

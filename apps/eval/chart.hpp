@@ -10,7 +10,7 @@ namespace geoloc::apps {
 struct ChartAxis {
   std::string label;  ///< with the unit
   bool is_logarithmic = false;
-  std::vector<double> ticks;  ///< empty: round numbers that suit the data
+  std::vector<double> ticks;  ///< all are shown; empty: round numbers that suit the data
 };
 
 struct ChartPoint {
@@ -45,6 +45,7 @@ struct Chart {
   std::vector<ChartSeries> series;
   std::vector<ChartRow> rows;
   std::optional<double> usual_x;  ///< marked: the value of all other runs
+  std::optional<double> right_y;  ///< marked: what y should be
   bool has_diagonal = false;      ///< the line y = x
 };
 

@@ -10,11 +10,6 @@
 namespace geoloc::apps {
 namespace {
 
-/// stock_path1 belongs to the set stock.
-std::string set_of(const std::string& flight) {
-  return flight.substr(0, flight.find('_'));
-}
-
 Summary& summary_of(std::vector<Summary>& summaries, const RunResult& run) {
   const std::string set = set_of(run.flight);
   for (Summary& summary : summaries) {
@@ -35,20 +30,6 @@ void add_calibration(Summary& summary, const CalibrationError& error) {
     summary.worst_boresight_error_deg = std::max(summary.worst_boresight_error_deg, boresight_deg);
     summary.worst_sigmas = std::max(summary.worst_sigmas, boresight_deg / error.sigma_boresight_deg[axis]);
   }
-}
-
-/// RMSE / found of one flight and scenario: means over the seeds.
-std::string cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
-                 Method method) {
-  double rmse_m = 0.0, found = 0.0;
-  int runs = 0;
-  for (const RunResult& run : results) {
-    if (run.flight != flight || run.scenario != scenario || run.method != method) continue;
-    ++runs;
-    rmse_m += run.score.rmse_m;
-    found += run.score.found;
-  }
-  return runs == 0 ? "" : fmt::format("{:.3f} / {:.1f}", rmse_m / runs, found / runs);
 }
 
 nlohmann::ordered_json to_json(const std::optional<CalibrationError>& error) {
@@ -72,6 +53,10 @@ std::vector<std::string> flights_of(const std::vector<RunResult>& results, const
 
 }  // namespace
 
+std::string set_of(const std::string& flight) {
+  return flight.substr(0, flight.find('_'));
+}
+
 const char* name_of(Method method) {
   switch (method) {
     case Method::kPaper:
@@ -80,6 +65,19 @@ const char* name_of(Method method) {
       return "full";
   }
   return "";
+}
+
+std::string table_cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
+                       Method method) {
+  double rmse_m = 0.0, found = 0.0;
+  int runs = 0;
+  for (const RunResult& run : results) {
+    if (run.flight != flight || run.scenario != scenario || run.method != method) continue;
+    ++runs;
+    rmse_m += run.score.rmse_m;
+    found += run.score.found;
+  }
+  return runs == 0 ? "" : fmt::format("{:.3f} / {:.3g}", rmse_m / runs, found / runs);
 }
 
 std::vector<Summary> summarize(const std::vector<RunResult>& results) {
@@ -122,8 +120,8 @@ std::string to_markdown(const std::vector<RunResult>& results) {
                    name_of(s.method));
     text += "| flight | scenario 1 | scenario 2 | scenario 3 |\n|---|---|---|---|\n";
     for (const std::string& flight : flights_of(results, s.set)) {
-      fmt::format_to(out, "| {} | {} | {} | {} |\n", flight, cell(results, flight, 1, s.method),
-                     cell(results, flight, 2, s.method), cell(results, flight, 3, s.method));
+      fmt::format_to(out, "| {} | {} | {} | {} |\n", flight, table_cell(results, flight, 1, s.method),
+                     table_cell(results, flight, 2, s.method), table_cell(results, flight, 3, s.method));
     }
   }
   return text;

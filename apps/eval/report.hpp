@@ -11,6 +11,13 @@ namespace geoloc::apps {
 
 const char* name_of(Method method);
 
+/// stock_path1 belongs to the set stock.
+std::string set_of(const std::string& flight);
+
+/// "RMSE m / targets found" of one flight and scenario: means over the seeds; empty without such runs.
+std::string table_cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
+                       Method method);
+
 /// Means over the runs of one set of flights (stock, gnss), method and, unless nullopt, seed.
 struct Summary {
   std::string set;

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <iterator>
+
+#include "eval/html_page.hpp"
 #include "eval/report.hpp"
 #include "eval/sweep_report.hpp"
 #include "geoloc/io/atomic_file.hpp"
@@ -15,9 +18,37 @@ std::string named_block(const char* name, const std::string& text) {
   return text.empty() ? "" : fmt::format("<!-- begin {0} -->\n{1}<!-- end {0} -->\n", name, text);
 }
 
+std::string rendered_to_markdown(const std::vector<RenderedRun>& runs) {
+  if (runs.empty()) return "";
+  std::string text =
+      "| flight | scenario | method | frames | found | extra | RMSE m | drawn detections: found | extra | "
+      "RMSE m | "
+      "RMSE ratio |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
+  for (const RenderedRun& run : runs) {
+    const RunResult& pictures = run.from_pictures;
+    const Score& model = run.from_model.score;
+    fmt::format_to(std::back_inserter(text),
+                   "| {} | {} | {} | {} | {}/{} | {} | {:.3f} | {}/{} | {} | {:.3f} | {:.2f} |\n",
+                   pictures.flight, pictures.scenario, name_of(pictures.method), run.frames,
+                   pictures.score.found, pictures.score.targets, pictures.score.extra, pictures.score.rmse_m,
+                   model.found, model.targets, model.extra, model.rmse_m, rmse_ratio(run));
+  }
+  return text;
+}
+
+nlohmann::ordered_json rendered_to_json(const std::vector<RenderedRun>& rendered) {
+  std::vector<RunResult> from_pictures, from_model;
+  for (const RenderedRun& run : rendered) {
+    from_pictures.push_back(run.from_pictures);
+    from_model.push_back(run.from_model);
+  }
+  return {{"from_pictures", to_json(from_pictures)["runs"]}, {"from_model", to_json(from_model)["runs"]}};
+}
+
 std::string to_json_text(const EvalResults& results) {
   auto document = to_json(results.runs);
   if (!results.sweeps.empty()) document["sweeps"] = sweeps_to_json(results.sweeps);
+  if (!results.rendered.empty()) document["rendered"] = rendered_to_json(results.rendered);
   return document.dump(1) + "\n";
 }
 
@@ -25,11 +56,13 @@ std::string to_json_text(const EvalResults& results) {
 
 std::string to_markdown(const EvalResults& results) {
   return named_block("table", results.runs.empty() ? "" : to_markdown(results.runs)) +
-         named_block("sweeps", sweeps_to_markdown(results.sweeps));
+         named_block("sweeps", sweeps_to_markdown(results.sweeps)) +
+         named_block("rendered", rendered_to_markdown(results.rendered));
 }
 
 void write_report(const std::filesystem::path& folder, const EvalResults& results) {
   std::filesystem::create_directories(folder);
+  io::write_file_atomically(folder / "report.html", to_html(results));
   io::write_file_atomically(folder / "report.md", to_markdown(results));
   io::write_file_atomically(folder / "report.json", to_json_text(results));
   for (const SweepResult& result : results.sweeps) {

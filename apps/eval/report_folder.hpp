@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "eval/experiment.hpp"
+#include "eval/rendered.hpp"
 #include "eval/sweep.hpp"
 
 namespace geoloc::apps {
@@ -14,13 +15,14 @@ namespace geoloc::apps {
 struct EvalResults {
   std::vector<RunResult> runs;
   std::vector<SweepResult> sweeps;
+  std::vector<RenderedRun> rendered;
 };
 
 /// The tables. Each stands between two comments that name it, so that docs/results.md can take it over.
 std::string to_markdown(const EvalResults& results);
 
-/// report.md, report.json and the pictures, sweep_NAME.svg. Throws std::runtime_error naming a file that
-/// cannot be written and the reason.
+/// report.html, report.md, report.json and the pictures, sweep_NAME.svg. Throws std::runtime_error naming a
+/// file that cannot be written and the reason.
 void write_report(const std::filesystem::path& folder, const EvalResults& results);
 
 }  // namespace geoloc::apps

@@ -62,7 +62,7 @@ Chart chart_of(const SweepResult& result) {
   Chart chart;
   chart.title = result.sweep.title;
   chart.x = {result.sweep.axis, result.sweep.is_logarithmic, result.sweep.values};
-  chart.y = {"RMSE, m", true, {}};
+  chart.y = {"RMSE, m", true, {0.05, 0.1, 0.2, 0.5, 1.0, 2.0}};  // alike, so that pictures compare
   chart.usual_x = result.sweep.usual;
   std::vector<ChartRow> found, extra;
   ChartRow in_view{"in view %", 2, {}};
