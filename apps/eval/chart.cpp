@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
+
+#include "eval/axis_scale.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -22,74 +23,13 @@ constexpr double kRowHeight = 17.0;
 constexpr double kRowsTop = kBottom + 56.0;
 constexpr int kStyles = 4;
 
-struct Range {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void add(double value) {
-    low = std::min(low, value);
-    high = std::max(high, value);
-  }
-  bool is_empty() const { return !(low <= high); }
-};
-
-/// Values to pixels along one axis.
-class AxisScale {
- public:
-  AxisScale(const ChartAxis& axis, Range range, double from_px, double to_px)
-      : is_logarithmic_(axis.is_logarithmic), from_px_(from_px), to_px_(to_px) {
-    for (const double tick : axis.ticks) range.add(tick);
-    if (range.is_empty()) range = {1.0, 2.0};
-    low_ = along(range.low);
-    high_ = along(range.high);
-    const double border = high_ > low_ ? 0.05 * (high_ - low_) : 0.5;
-    low_ -= border;
-    high_ += border;
-    ticks_ = axis.ticks.empty() ? round_ticks() : axis.ticks;
-  }
-
-  double px(double value) const {
-    return from_px_ + (along(value) - low_) / (high_ - low_) * (to_px_ - from_px_);
-  }
-  bool holds(double value) const { return std::isfinite(value) && (!is_logarithmic_ || value > 0.0); }
-  double low() const { return is_logarithmic_ ? std::pow(10.0, low_) : low_; }
-  double high() const { return is_logarithmic_ ? std::pow(10.0, high_) : high_; }
-  const std::vector<double>& ticks() const { return ticks_; }
-
- private:
-  double along(double value) const { return is_logarithmic_ ? std::log10(value) : value; }
-
-  std::vector<double> round_ticks() const {
-    std::vector<double> ticks;
-    if (is_logarithmic_) {
-      for (double decade = std::floor(low_); decade <= high_; decade += 1.0) {
-        for (const double digit : {1.0, 2.0, 5.0}) ticks.push_back(digit * std::pow(10.0, decade));
-      }
-    } else {
-      const double rough = (high_ - low_) / 6.0;
-      const double decade = std::pow(10.0, std::floor(std::log10(rough)));
-      double step = 10.0 * decade;
-      for (const double digit : {5.0, 2.0, 1.0}) step = rough <= digit * decade ? digit * decade : step;
-      for (double tick = std::ceil(low_ / step) * step; tick <= high_; tick += step)
-        ticks.push_back(std::abs(tick) < 1e-9 * step ? 0.0 : tick);
-    }
-    const auto is_outside = [this](double tick) { return along(tick) < low_ || along(tick) > high_; };
-    ticks.erase(std::remove_if(ticks.begin(), ticks.end(), is_outside), ticks.end());
-    return ticks;
-  }
-
-  bool is_logarithmic_;
-  double from_px_, to_px_;
-  double low_ = 0.0, high_ = 1.0;  // decades where logarithmic
-  std::vector<double> ticks_;
-};
-
 struct Plane {
   AxisScale x;
   AxisScale y;
 };
 
 Plane plane_of(const Chart& chart) {
-  Range x, y;
+  ValueRange x, y;
   for (const ChartSeries& series : chart.series) {
     for (const ChartPoint& point : series.points) {
       if (!std::isfinite(point.x) || !std::isfinite(point.y)) continue;

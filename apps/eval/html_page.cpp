@@ -159,19 +159,9 @@ std::string table_section(const std::vector<RunResult>& runs) {
   return html;
 }
 
-std::string calibration_charts(const EvalResults& results) {
-  std::vector<RunResult> of_latencies = results.runs;
-  for (const SweepResult& sweep : results.sweeps) {
-    if (sweep.sweep.name != "latency") continue;
-    for (const SweepPoint& point : sweep.points)
-      of_latencies.insert(of_latencies.end(), point.runs.begin(), point.runs.end());
-  }
+std::string run_section(const EvalResults& results) {
   std::vector<Chart> charts;
-  if (!pairs_of(results.runs).empty()) charts.push_back(methods_chart(results.runs));
-  for (Chart chart :
-       {boresight_chart(results.runs), latency_chart(of_latencies), consistency_chart(results.runs)}) {
-    if (!chart.series.empty()) charts.push_back(std::move(chart));
-  }
+  for (NamedChart& named : run_charts(results)) charts.push_back(std::move(named.chart));
   if (charts.empty()) return "";
   return figures(charts) +
          paragraph(
@@ -230,7 +220,7 @@ std::string to_html(const EvalResults& results) {
       "the self-calibrating one. Frames are late and the camera is mounted askew; neither method is "
       "told.</p>\n";
   if (!results.runs.empty()) html += table_section(results.runs);
-  html += calibration_charts(results);
+  html += run_section(results);
   html += sweep_section(results.sweeps);
   html += rendered_section(results.rendered);
   return html + "</main></body></html>\n";

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "eval/html_page.hpp"
 #include "eval/report.hpp"
+#include "eval/run_charts.hpp"
 #include "eval/sweep_report.hpp"
 #include "geoloc/io/atomic_file.hpp"
 
@@ -54,6 +56,22 @@ std::string to_json_text(const EvalResults& results) {
 
 }  // namespace
 
+std::vector<NamedChart> run_charts(const EvalResults& results) {
+  std::vector<RunResult> of_latencies = results.runs;
+  for (const SweepResult& result : results.sweeps) {
+    if (result.sweep.name != "latency") continue;
+    for (const SweepPoint& point : result.points)
+      of_latencies.insert(of_latencies.end(), point.runs.begin(), point.runs.end());
+  }
+  std::vector<NamedChart> charts{{"methods", methods_chart(results.runs)},
+                                 {"boresight", boresight_chart(results.runs)},
+                                 {"latency", latency_chart(of_latencies)},
+                                 {"consistency", consistency_chart(results.runs)}};
+  const auto is_empty = [](const NamedChart& named) { return named.chart.series.empty(); };
+  charts.erase(std::remove_if(charts.begin(), charts.end(), is_empty), charts.end());
+  return charts;
+}
+
 std::string to_markdown(const EvalResults& results) {
   return named_block("table", results.runs.empty() ? "" : to_markdown(results.runs)) +
          named_block("sweeps", sweeps_to_markdown(results.sweeps)) +
@@ -65,6 +83,8 @@ void write_report(const std::filesystem::path& folder, const EvalResults& result
   io::write_file_atomically(folder / "report.html", to_html(results));
   io::write_file_atomically(folder / "report.md", to_markdown(results));
   io::write_file_atomically(folder / "report.json", to_json_text(results));
+  for (const NamedChart& named : run_charts(results))
+    io::write_file_atomically(folder / (named.name + ".svg"), to_svg_file(named.chart));
   for (const SweepResult& result : results.sweeps) {
     io::write_file_atomically(folder / ("sweep_" + result.sweep.name + ".svg"),
                               to_svg_file(chart_of(result)));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "eval/axis_scale.hpp"
 #include "eval/html_table.hpp"
 
 namespace geoloc::apps {
@@ -52,6 +53,30 @@ TEST(Chart, IsDrawnWithoutData) {
   const std::string svg = to_svg_file(Chart{});
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
+}
+
+TEST(AxisScale, TicksAreRoundAndWithin) {
+  for (const bool is_logarithmic : {false, true}) {
+    for (const double low : {1e-9, 0.013, 0.7, 42.0, 1e9}) {
+      for (const double ratio : {1.0, 1.5, 8.0, 1e3}) {
+        const AxisScale scale({"", is_logarithmic, {}}, {low, ratio * low}, 0.0, 100.0);
+        ASSERT_LE(scale.ticks().size(), 40U);
+        for (const double tick : scale.ticks()) {
+          const double digits = tick / std::pow(10.0, std::floor(std::log10(std::abs(tick))) - 2.0);
+          ASSERT_TRUE(tick == 0.0 || std::abs(digits - std::round(digits)) < 1e-6) << tick;
+          ASSERT_GE(scale.px(tick), -1e-6);
+          ASSERT_LE(scale.px(tick), 100.0 + 1e-6);
+        }
+      }
+    }
+  }
+}
+
+TEST(AxisScale, EndsOfTheRangeLieWithinTheBorder) {
+  const AxisScale scale({"", true, {}}, {0.1, 10.0}, 400.0, 0.0);  // upwards, as y is drawn
+  EXPECT_NEAR(scale.px(1.0), 200.0, 1e-9);
+  EXPECT_GT(scale.px(10.0), 10.0);
+  EXPECT_LT(scale.px(0.1), 390.0);
 }
 
 TEST(Chart, FileBringsItsStyleAndAnElementDoesNot) {
