@@ -115,6 +115,10 @@ std::vector<SweepResult> run_sweeps(Experiment experiment, const std::vector<Swe
 std::vector<RenderedRun> run_rendered(const Experiment& experiment, const Options& options) {
   RenderedSettings settings = options.rendered;
   settings.seed = options.seeds.front();
+  if (!options.report_folder.empty()) {
+    settings.recordings = std::filesystem::path(options.report_folder) / "rendered";
+    std::filesystem::create_directories(settings.recordings);
+  }
   std::optional<ProgressLine> progress;
   auto runs = run_rendered(experiment, settings, options.threads, [&](std::size_t done, std::size_t total) {
     if (!progress) progress.emplace("pictures", total);

@@ -13,7 +13,7 @@ namespace geoloc::apps {
 namespace {
 
 // One size for all drawings, small enough to be read on a telephone without zooming.
-constexpr double kWidth = 460.0;
+constexpr double kWidth = 420.0;
 constexpr double kLeft = 78.0;
 constexpr double kRight = kWidth - 18.0;
 constexpr double kTop = 56.0;

@@ -7,6 +7,7 @@
 
 #include "eval/parallel.hpp"
 #include "geoloc/io/detection/opencv_detector.hpp"
+#include "geoloc/io/recording/recording_writer.hpp"
 #include "geoloc/sim/flight_camera.hpp"
 #include "geoloc/sim/scenario.hpp"
 
@@ -68,6 +69,20 @@ void detect_part(const sim::Flight& flight, const RenderedSettings& settings, st
   }
 }
 
+/// What the detector found, for geoloc_replay: the folder of docs/formats.md, in the place of an older one.
+void record(const std::filesystem::path& folder, const sim::Flight& flight,
+            const RenderedScenario& scenario) {
+  std::filesystem::remove_all(folder);
+  io::RecordingWriter writer(folder);
+  writer.write_camera(sim::nominal_camera(scenario.settings.run));
+  writer.write_truth(sim::true_targets(scenario.targets_in_enu, flight.truth.frame()));
+  writer.write_extra("sim.json", sim::injected_json(flight, scenario.settings));
+  for (const io::TlogRecord& record : flight.telemetry.records())
+    writer.add_telemetry(record.received_at, record.frame, record.size);
+  for (const io::RecordedFrame& frame : scenario.from_pictures) writer.add_frame(frame);
+  writer.finish();
+}
+
 }  // namespace
 
 double rmse_ratio(const RenderedRun& run) {
@@ -95,6 +110,10 @@ std::vector<RenderedRun> run_rendered(
 
   std::vector<RenderedRun> runs;
   for (const RenderedScenario& scenario : scenarios) {
+    if (!settings.recordings.empty()) {
+      const std::string name = settings.flight + "_scenario" + std::to_string(scenario.settings.run.scenario);
+      record(settings.recordings / name, flight, scenario);
+    }
     const auto truth = sim::true_targets(scenario.targets_in_enu, flight.truth.frame());
     for (const Method method : experiment.methods) {
       const auto run = [&](const std::vector<io::RecordedFrame>& frames) {

@@ -15,9 +15,10 @@ namespace geoloc::apps {
 struct RenderedSettings {
   std::string flight = "stock_path1";
   std::uint64_t seed = 0;
-  int distractors = 20;            ///< things on the ground that look like targets
-  std::optional<double> length_s;  ///< [s] of the survey, from its beginning; unset: all of it
-  std::filesystem::path model;     ///< the detector, ONNX
+  int distractors = 20;              ///< things on the ground that look like targets
+  std::optional<double> length_s;    ///< [s] of the survey, from its beginning; unset: all of it
+  std::filesystem::path recordings;  ///< a recording of each scenario goes here, to be replayed; empty: none
+  std::filesystem::path model;       ///< the detector, ONNX
 };
 
 /// One method on one flight, once with what the detector found in drawn pictures, and once with detections

@@ -92,7 +92,7 @@ Sweep misses() {
               "Missed targets",
               "share of the looks missed, %",
               false,
-              {0.0, 5.0, 20.0, 30.0, 40.0, 50.0, 60.0},
+              {0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0},
               5.0};
   sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
     settings.detector.miss_rate = value / 100.0;

@@ -45,7 +45,7 @@ class Sweeps(AppTest):
         self.assertLess(rmse_m["full", 0.3], 1.3 * rmse_m["full", 0.0])
 
     def test_the_usual_value_gives_the_tables_figures(self):
-        report = self.evaluate(self.folder, "--flights", "stock", "--scenarios", 1, "--sweep", "misses")
+        report = self.evaluate(self.folder, "--flights", "stock", "--scenarios", 1, "--sweep", "height")
         (sweep,) = report["sweeps"]
         for summary in report["summaries"]:
             (usual,) = [point for point in sweep["points"]
