@@ -94,13 +94,13 @@ Chart latency_chart(const std::vector<RunResult>& runs) {
 }
 
 Chart consistency_chart(const std::vector<RunResult>& runs) {
-  constexpr double kRight = 2.0;   // the mean of chi-squared with two degrees of freedom
-  constexpr double kAside = 0.12;  // the sets stand beside each other
+  constexpr double kExpected = 2.0;  // the mean of chi-squared with two degrees of freedom
+  constexpr double kAside = 0.12;    // the sets stand beside each other
   Chart chart;
   chart.title = "Is the stated covariance right? NEES of full";
   chart.x = {"path", false, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
   chart.y = {"NEES, a point a run", true, {}};
-  chart.right_y = kRight;
+  chart.right_y = kExpected;
   for (const RunResult& run : runs) {
     if (run.method != Method::kFull) continue;
     const std::string set = set_of(run.flight);
