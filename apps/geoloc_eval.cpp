@@ -6,10 +6,11 @@
 #include <thread>
 
 #include "common/command_line.hpp"
+#include "common/data_files.hpp"
 #include "common/progress.hpp"
 #include "eval/experiment.hpp"
-#include "eval/report.hpp"
-#include "geoloc/io/atomic_file.hpp"
+#include "eval/report_folder.hpp"
+#include "eval/sweep.hpp"
 #include "geoloc/sim/flight.hpp"
 
 namespace {
@@ -20,31 +21,48 @@ using namespace geoloc::apps;
 struct Options {
   std::string flights = "all";
   std::string method = "both";
+  std::vector<int> scenarios{1, 2, 3};
   std::vector<std::uint64_t> seeds{0, 1, 2};
   int known_points = 0;
   std::string config_file;
+  std::string sweep;
+  bool is_rendered = false;
+  RenderedSettings rendered;
   std::string report_folder;
   std::optional<std::filesystem::path> data_folder;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
 };
 
 void add_options(CLI::App& program, Options& options) {
-  program.add_option("--flights", options.flights, "Which set of flights")
-      ->check(CLI::IsMember({"stock", "gnss", "all"}))
+  program.add_option("--flights", options.flights, "Which set of flights in the table")
+      ->check(CLI::IsMember({"stock", "gnss", "all", "none"}))
       ->capture_default_str();
   program.add_option("--method", options.method, "Which estimator")
       ->check(CLI::IsMember({"paper", "full", "both"}))
+      ->capture_default_str();
+  program.add_option("--scenarios", options.scenarios, "Targets: 1 spread, 2 tight clusters, 3 grid")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 3))
       ->capture_default_str();
   program.add_option("--seeds", options.seeds, "Seeds of targets and errors")
       ->delimiter(',')
       ->capture_default_str();
   program
       .add_option("--known-points", options.known_points,
-                  "Targets of each run that the full method is told, 5 cm off; the others are scored")
+                  "Also run the full method with so many targets of each run told to it, 5 cm off; the "
+                  "others are scored")
       ->check(CLI::Range(0, 30))
       ->capture_default_str();
+  program.add_option("--sweep", options.sweep, "Vary one circumstance as well: its name, or all [none]")
+      ->type_name("NAME");
+  program.add_flag(
+      "--rendered", options.is_rendered,
+      "Also draw every frame of one flight and let the detector find the targets; takes minutes");
+  program.add_option("--rendered-flight", options.rendered.flight, "Which one")->capture_default_str();
+  program.add_option("--rendered-s", options.rendered.length_s, "So much of its survey, s [all]")
+      ->check(CLI::Range(1.0, 1e4));
   program.add_option("--config", options.config_file, "Settings of the estimator, JSON")->type_name("FILE");
-  program.add_option("--report", options.report_folder, "Write report.md and report.json here")
+  program.add_option("--report", options.report_folder, "Write report.md, report.json and pictures here")
       ->type_name("DIR");
   program.add_option("--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
   program.add_option("--threads", options.threads, "Runs at once")
@@ -52,19 +70,22 @@ void add_options(CLI::App& program, Options& options) {
       ->capture_default_str();
 }
 
+std::vector<std::string> flights_of_set(const std::string& set) {
+  std::vector<std::string> flights;
+  for (int path = 1; path <= 6; ++path) flights.push_back(set + "_path" + std::to_string(path));
+  return flights;
+}
+
+/// Without flights: table and sweeps fly different ones.
 Experiment make_experiment(const Options& options) {
   Experiment experiment;
   experiment.flights_folder =
       sim::find_flights(options.data_folder, std::filesystem::read_symlink("/proc/self/exe"));
-  for (const char* set : {"stock", "gnss"}) {
-    if (options.flights != "all" && options.flights != set) continue;
-    for (int path = 1; path <= 6; ++path)
-      experiment.flights.push_back(std::string(set) + "_path" + std::to_string(path));
-  }
-  if (options.method == "paper") experiment.methods = {Method::kPaper};
-  if (options.method == "full") experiment.methods = {Method::kFull};
+  if (options.method == "paper") experiment.contenders = {{Method::kPaper, 0}};
+  if (options.method == "full") experiment.contenders = {{Method::kFull, 0}};
+  if (options.known_points > 0) experiment.contenders.push_back({Method::kFull, options.known_points});
+  experiment.scenarios = options.scenarios;
   experiment.seeds = options.seeds;
-  experiment.known_points = options.known_points;
   if (!options.config_file.empty()) {
     std::vector<std::string> problems;
     estimation_from_json(read_config_document(options.config_file), {"video", "detection"},
@@ -72,6 +93,47 @@ Experiment make_experiment(const Options& options) {
     refuse_problems(options.config_file, problems);
   }
   return experiment;
+}
+
+std::vector<RunResult> run_table(Experiment experiment, const Options& options) {
+  for (const char* set : {"stock", "gnss"}) {
+    if (options.flights != "all" && options.flights != set) continue;
+    for (std::string& flight : flights_of_set(set)) experiment.flights.push_back(std::move(flight));
+  }
+  ProgressLine progress("runs",
+                        experiment.flights.size() * experiment.scenarios.size() * experiment.seeds.size());
+  const auto results = run_experiment(experiment, options.threads,
+                                      [&](std::size_t done, std::size_t) { progress.show(done); });
+  progress.finish();
+  return results;
+}
+
+std::vector<SweepResult> run_sweeps(Experiment experiment, const std::vector<Sweep>& sweeps,
+                                    const Options& options) {
+  experiment.flights = flights_of_set("stock");
+  std::size_t steps = 0;
+  for (const Sweep& sweep : sweeps) steps += sweep.values.size() * experiment.flights.size();
+  ProgressLine progress("sweeps", steps);
+  auto results = run_sweeps(experiment, sweeps, options.threads,
+                            [&](std::size_t done, std::size_t) { progress.show(done); });
+  progress.finish();
+  return results;
+}
+
+std::vector<RenderedRun> run_rendered(const Experiment& experiment, const Options& options) {
+  RenderedSettings settings = options.rendered;
+  settings.seed = options.seeds.front();
+  if (!options.report_folder.empty()) {
+    settings.recordings = std::filesystem::path(options.report_folder) / "rendered";
+    std::filesystem::create_directories(settings.recordings);
+  }
+  std::optional<ProgressLine> progress;
+  auto runs = run_rendered(experiment, settings, options.threads, [&](std::size_t done, std::size_t total) {
+    if (!progress) progress.emplace("pictures", total);
+    progress->show(done);
+  });
+  if (progress) progress->finish();
+  return runs;
 }
 
 }  // namespace
@@ -83,21 +145,24 @@ int main(int argc, char** argv) {
   if (const auto status = parse(program, argc, argv)) return *status;
 
   Experiment experiment;
-  const auto unusable = guard("geoloc_eval", kUnusable, [&] { experiment = make_experiment(options); });
+  std::vector<Sweep> sweeps;
+  const auto unusable = guard("geoloc_eval", kUnusable, [&] {
+    experiment = make_experiment(options);
+    if (!options.sweep.empty()) sweeps = find_sweeps(options.sweep);
+    if (options.is_rendered) {
+      sim::load_flight(experiment.flights_folder, options.rendered.flight);  // refuses an unknown one
+      options.rendered.model = find_data_file("models/fiducial.onnx");
+    }
+  });
   if (unusable) return *unusable;
 
   const auto failed = guard("geoloc_eval", kFailed, [&] {
-    ProgressLine progress("runs",
-                          experiment.flights.size() * experiment.scenarios.size() * experiment.seeds.size());
-    const auto results = run_experiment(experiment, options.threads,
-                                        [&](std::size_t done, std::size_t) { progress.show(done); });
-    progress.finish();
+    EvalResults results;
+    results.runs = run_table(experiment, options);
+    results.sweeps = run_sweeps(experiment, sweeps, options);
+    if (options.is_rendered) results.rendered = run_rendered(experiment, options);
     std::fputs(to_markdown(results).c_str(), stdout);
-    if (options.report_folder.empty()) return;
-    const std::filesystem::path folder(options.report_folder);
-    std::filesystem::create_directories(folder);
-    io::write_file_atomically(folder / "report.md", to_markdown(results));
-    io::write_file_atomically(folder / "report.json", to_json(results));
+    if (!options.report_folder.empty()) write_report(options.report_folder, results);
   });
   return failed.value_or(kDone);
 }

@@ -14,16 +14,25 @@
 
 namespace geoloc::apps {
 
+/// An estimator, and how many targets of each run it is told; those are not scored.
+struct Contender {
+  Method method = Method::kPaper;
+  int known_points = 0;  ///< the paper's method has no use for any
+
+  bool operator==(const Contender& other) const {
+    return method == other.method && known_points == other.known_points;
+  }
+};
+
 /// The paper's protocol: every flight over every scenario, for several seeds.
 struct Experiment {
   std::filesystem::path flights_folder;
   std::vector<std::string> flights;
   std::vector<int> scenarios{1, 2, 3};
   std::vector<std::uint64_t> seeds{0, 1, 2};
-  std::vector<Method> methods{Method::kPaper, Method::kFull};
+  std::vector<Contender> contenders{{Method::kPaper, 0}, {Method::kFull, 0}};
   sim::RecordingSettings recording;  ///< flight, scenario and seed are set for each run
-  int known_points = 0;         ///< targets of each run that the full method is told, and that are not scored
-  EstimationConfig estimation;  ///< camera and method are set for each run
+  EstimationConfig estimation;       ///< camera and method are set for each run
 };
 
 /// Estimated minus injected, with the stated sigma; only where the method estimates it.
@@ -32,18 +41,31 @@ struct CalibrationError {
   double sigma_latency_s = 0.0;
   Eigen::Vector2d boresight_deg = Eigen::Vector2d::Zero();  ///< about the camera's x and y
   Eigen::Vector2d sigma_boresight_deg = Eigen::Vector2d::Zero();
+  double injected_latency_s = 0.0;
+  Eigen::Vector2d injected_boresight_deg = Eigen::Vector2d::Zero();
 };
 
 struct RunResult {
   std::string flight;
   int scenario = 0;
   std::uint64_t seed = 0;
-  Method method = Method::kPaper;
+  Contender contender;
   Score score;
   double nees = 0.0;  ///< mean over the objects found; 2 is right
   int known_points_used = 0;
   std::optional<CalibrationError> calibration;
 };
+
+/// What an estimator is given, and what only its judge knows.
+struct SimulatedRun {
+  const sim::Flight& flight;
+  const sim::RunSettings& settings;
+  const std::vector<io::RecordedFrame>& frames;
+  const std::vector<io::TrueTarget>& truth;
+};
+
+/// One estimator on one run. Camera, method and known points of `config` are set here.
+RunResult run_method(const SimulatedRun& run, const Contender& contender, EstimationConfig config);
 
 /// All runs, in the order flight, scenario, seed, method, whatever the number of threads. `on_run` is called
 /// after each, from any thread, one at a time. Throws std::runtime_error for a flight that cannot be loaded.

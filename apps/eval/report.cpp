@@ -6,34 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 namespace geoloc::apps {
 namespace {
 
-const char* name_of(Method method) {
-  switch (method) {
-    case Method::kPaper:
-      return "paper";
-    case Method::kFull:
-      return "full";
-  }
-  return "";
-}
-
-/// stock_path1 belongs to the set stock.
-std::string set_of(const std::string& flight) {
-  return flight.substr(0, flight.find('_'));
-}
-
 Summary& summary_of(std::vector<Summary>& summaries, const RunResult& run) {
   const std::string set = set_of(run.flight);
   for (Summary& summary : summaries) {
-    if (summary.set == set && summary.method == run.method) return summary;
+    if (summary.set == set && summary.contender == run.contender) return summary;
   }
   summaries.push_back({});
   summaries.back().set = set;
-  summaries.back().method = run.method;
+  summaries.back().contender = run.contender;
   return summaries.back();
 }
 
@@ -46,20 +30,6 @@ void add_calibration(Summary& summary, const CalibrationError& error) {
     summary.worst_boresight_error_deg = std::max(summary.worst_boresight_error_deg, boresight_deg);
     summary.worst_sigmas = std::max(summary.worst_sigmas, boresight_deg / error.sigma_boresight_deg[axis]);
   }
-}
-
-/// RMSE / found of one flight and scenario: means over the seeds.
-std::string cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
-                 Method method) {
-  double rmse_m = 0.0, found = 0.0;
-  int runs = 0;
-  for (const RunResult& run : results) {
-    if (run.flight != flight || run.scenario != scenario || run.method != method) continue;
-    ++runs;
-    rmse_m += run.score.rmse_m;
-    found += run.score.found;
-  }
-  return runs == 0 ? "" : fmt::format("{:.3f} / {:.1f}", rmse_m / runs, found / runs);
 }
 
 nlohmann::ordered_json to_json(const std::optional<CalibrationError>& error) {
@@ -82,6 +52,28 @@ std::vector<std::string> flights_of(const std::vector<RunResult>& results, const
 }
 
 }  // namespace
+
+std::string set_of(const std::string& flight) {
+  return flight.substr(0, flight.find('_'));
+}
+
+std::string name_of(const Contender& contender) {
+  if (contender.method == Method::kPaper) return "paper";
+  return contender.known_points == 0 ? "full" : fmt::format("full, {} known points", contender.known_points);
+}
+
+std::string table_cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
+                       const Contender& contender) {
+  double rmse_m = 0.0, found = 0.0;
+  int runs = 0;
+  for (const RunResult& run : results) {
+    if (run.flight != flight || run.scenario != scenario || !(run.contender == contender)) continue;
+    ++runs;
+    rmse_m += run.score.rmse_m;
+    found += run.score.found;
+  }
+  return runs == 0 ? "" : fmt::format("{:.3f} / {:.3g}", rmse_m / runs, found / runs);
+}
 
 std::vector<Summary> summarize(const std::vector<RunResult>& results) {
   std::vector<Summary> summaries;
@@ -115,28 +107,30 @@ std::string to_markdown(const std::vector<RunResult>& results) {
   for (const Summary& s : summaries) {
     fmt::format_to(
         out, "| {} | {} | {} | {:.3f} | {:.3f} | {}/{} | {} | {} | {:.2f} | {:.3f} | {:.2f} | {:.1f} |\n",
-        s.set, name_of(s.method), s.runs, s.mean_rmse_m, s.mean_relative_rmse_m, s.found, s.targets, s.extra,
-        s.merged_pairs, s.mean_nees, s.worst_latency_error_s, s.worst_boresight_error_deg, s.worst_sigmas);
+        s.set, name_of(s.contender), s.runs, s.mean_rmse_m, s.mean_relative_rmse_m, s.found, s.targets,
+        s.extra, s.merged_pairs, s.mean_nees, s.worst_latency_error_s, s.worst_boresight_error_deg,
+        s.worst_sigmas);
   }
   for (const Summary& s : summaries) {
     fmt::format_to(out, "\n{}, {}: RMSE m / targets found, means over the seeds\n\n", s.set,
-                   name_of(s.method));
+                   name_of(s.contender));
     text += "| flight | scenario 1 | scenario 2 | scenario 3 |\n|---|---|---|---|\n";
     for (const std::string& flight : flights_of(results, s.set)) {
-      fmt::format_to(out, "| {} | {} | {} | {} |\n", flight, cell(results, flight, 1, s.method),
-                     cell(results, flight, 2, s.method), cell(results, flight, 3, s.method));
+      fmt::format_to(out, "| {} | {} | {} | {} |\n", flight, table_cell(results, flight, 1, s.contender),
+                     table_cell(results, flight, 2, s.contender),
+                     table_cell(results, flight, 3, s.contender));
     }
   }
   return text;
 }
 
-std::string to_json(const std::vector<RunResult>& results) {
+nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
   auto runs = nlohmann::ordered_json::array();
   for (const RunResult& run : results) {
     runs.push_back({{"flight", run.flight},
                     {"scenario", run.scenario},
                     {"seed", run.seed},
-                    {"method", name_of(run.method)},
+                    {"method", name_of(run.contender)},
                     {"rmse_m", run.score.rmse_m},
                     {"relative_rmse_m", run.score.relative_rmse_m},
                     {"found", run.score.found},
@@ -150,7 +144,7 @@ std::string to_json(const std::vector<RunResult>& results) {
   auto summaries = nlohmann::ordered_json::array();
   for (const Summary& s : summarize(results)) {
     summaries.push_back({{"set", s.set},
-                         {"method", name_of(s.method)},
+                         {"method", name_of(s.contender)},
                          {"runs", s.runs},
                          {"mean_rmse_m", s.mean_rmse_m},
                          {"mean_relative_rmse_m", s.mean_relative_rmse_m},
@@ -163,7 +157,7 @@ std::string to_json(const std::vector<RunResult>& results) {
                          {"worst_boresight_error_deg", s.worst_boresight_error_deg},
                          {"worst_error_in_sigmas", s.worst_sigmas}});
   }
-  return nlohmann::ordered_json{{"summaries", summaries}, {"runs", runs}}.dump(1) + "\n";
+  return {{"summaries", summaries}, {"runs", runs}};
 }
 
 }  // namespace geoloc::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -8,10 +9,19 @@
 
 namespace geoloc::apps {
 
+std::string name_of(const Contender& contender);
+
+/// stock_path1 belongs to the set stock.
+std::string set_of(const std::string& flight);
+
+/// "RMSE m / targets found" of one flight and scenario: means over the seeds; empty without such runs.
+std::string table_cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
+                       const Contender& contender);
+
 /// Means over the runs of one set of flights (stock, gnss), method and, unless nullopt, seed.
 struct Summary {
   std::string set;
-  Method method = Method::kPaper;
+  Contender contender;
   int runs = 0;
   double mean_rmse_m = 0.0;
   double mean_relative_rmse_m = 0.0;
@@ -32,7 +42,7 @@ std::vector<Summary> summarize(const std::vector<RunResult>& results);
 /// The paper's table 1 for each set and method (means over the seeds), and the summaries.
 std::string to_markdown(const std::vector<RunResult>& results);
 
-/// Every run and every summary.
-std::string to_json(const std::vector<RunResult>& results);
+/// Every run and every summary: "summaries", "runs".
+nlohmann::ordered_json to_json(const std::vector<RunResult>& results);
 
 }  // namespace geoloc::apps

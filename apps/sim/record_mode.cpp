@@ -18,7 +18,8 @@ CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
   CLI::Option* const record = add("--record", options.folder, "Write a recording into this new folder");
   add("--pixel-noise", detector.pixel_noise_px, "1-sigma of a box's centre, px")->capture_default_str();
   add("--miss-rate", detector.miss_rate, "Share of the visible targets not found")->capture_default_str();
-  add("--clutter-rate", detector.clutter_rate, "Share of the frames with a false box")->capture_default_str();
+  add("--clutter-rate", detector.clutter_rate, "Mean number of false boxes in a frame")
+      ->capture_default_str();
   add("--target-size-m", detector.target_size_m, "Diameter of a target, m")->capture_default_str();
   add("--min-visible-fraction", detector.min_visible_fraction, "Of a box that is found, in the image")
       ->capture_default_str();

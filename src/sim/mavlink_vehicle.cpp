@@ -8,8 +8,6 @@
 #include <cstring>
 #include <utility>
 
-#include "geoloc/io/mavlink/message_table.hpp"
-
 namespace geoloc::sim {
 namespace {
 
@@ -218,17 +216,9 @@ void MavlinkVehicle::tell(const RecordedMessage& message, HostTime sent_at, doub
 }
 
 void MavlinkVehicle::send(std::uint32_t message_id, const Payload& payload) {
-  const auto spec = io::message_spec(message_id);
-  if (!spec) return;  // recorded_streams() leaves such messages out
-  mavlink_message_t message{};
-  message.msgid = message_id & 0xFFFFFFU;  // three bytes on the wire
-  std::memcpy(_MAV_PAYLOAD_NON_CONST(&message), payload.data(), payload.size());
-  mavlink_status_t status{};  // of this call alone: the generated code's own is global
-  status.current_tx_seq = sequence_++;
-  mavlink_finalize_message_buffer(&message, kAddress.system, kAddress.component, &status, spec->base_size,
-                                  static_cast<std::uint8_t>(payload.size()), spec->checksum_seed);
-  Datagram datagram(MAVLINK_MAX_PACKET_LEN);
-  datagram.resize(mavlink_msg_to_send_buffer(datagram.data(), &message));
+  Datagram datagram = encode_frame(message_id, kAddress, sequence_, payload);
+  if (datagram.empty()) return;  // recorded_streams() leaves such messages out
+  ++sequence_;
   outgoing_.push_back(std::move(datagram));
   ++messages_sent_;
 }

@@ -155,9 +155,14 @@ std::optional<std::uint8_t> data_stream_of(std::uint32_t message_id) {
   }
 }
 
-Payload retell(const FrameView& recorded, const Retelling& how) {
+Payload whole_payload(const FrameView& frame) {
   Payload payload{};
-  std::copy_n(recorded.payload, std::min(recorded.payload_size, payload.size()), payload.begin());
+  std::copy_n(frame.payload, std::min(frame.payload_size, payload.size()), payload.begin());
+  return payload;
+}
+
+Payload retell(const FrameView& recorded, const Retelling& how) {
+  Payload payload = whole_payload(recorded);
   switch (recorded.message_id) {
     case MAVLINK_MSG_ID_ATTITUDE:
       edit_as<mavlink_attitude_t>(payload, how);

@@ -110,4 +110,20 @@ Points make_scenario(int number, std::uint64_t seed) {
   }
 }
 
+Points make_pairs(double distance_m, std::uint64_t seed) {
+  constexpr double kWidest_m = 5.0;
+  constexpr double kBetweenPairs_m = 8.0;
+  if (!(distance_m > 0.0 && distance_m <= kWidest_m)) {
+    throw std::invalid_argument("the targets of a pair must stand in (0, 5] m from each other");
+  }
+  Random random(stream_seed(seed, RandomStream::kScenario));
+  Points points;
+  for (const Eigen::Vector2d& middle : scatter(kTargetCount / 2, kBetweenPairs_m, 0.5 * kWidest_m, random)) {
+    const Eigen::Vector2d half = offset(0.5 * distance_m, random);
+    points.push_back(middle - half);
+    points.push_back(middle + half);
+  }
+  return points;
+}
+
 }  // namespace geoloc::sim

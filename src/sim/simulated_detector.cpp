@@ -39,7 +39,7 @@ std::vector<std::string> DetectorModel::problems() const {
   found.require(target_size_m > 0.0 && target_size_m <= 100.0, "target_size must lie in (0, 100] m");
   found.require(pixel_noise_px >= 0.0 && pixel_noise_px <= 1000.0, "pixel_noise must lie in [0, 1000] px");
   found.require(is_rate(miss_rate), "miss_rate must lie in [0, 1]");
-  found.require(is_rate(clutter_rate), "clutter_rate must lie in [0, 1]");
+  found.require(clutter_rate >= 0.0 && clutter_rate <= 100.0, "clutter_rate must lie in [0, 100]");
   found.require(is_rate(min_visible_fraction), "min_visible_fraction must lie in [0, 1]");
   return found.take();
 }
@@ -89,12 +89,17 @@ std::vector<Detection> SimulatedDetector::detect(const Rigid3d& enu_from_camera)
     const double confidence = detections_.uniform(kLeastConfidence, kMostConfidence);
     if (!missed) found.push_back({*box, confidence, 0});
   }
-  if (clutter_.chance(model_.clutter_rate)) found.push_back(draw_clutter());
+  for (int i = draw_clutter_count(); i > 0; --i) found.push_back(draw_clutter());
   const auto more_confident = [](const Detection& a, const Detection& b) {
     return a.confidence > b.confidence;
   };
   std::stable_sort(found.begin(), found.end(), more_confident);
   return found;
+}
+
+int SimulatedDetector::draw_clutter_count() {
+  const double whole = std::floor(model_.clutter_rate);
+  return static_cast<int>(whole) + (clutter_.chance(model_.clutter_rate - whole) ? 1 : 0);
 }
 
 Detection SimulatedDetector::draw_clutter() {

@@ -32,6 +32,7 @@ Trajectory::Trajectory(const std::vector<TrueState>& states, const Site& site)
     times_.push_back(state.time);
     enu_from_body_.push_back(pose);
   }
+  survey_ = find_survey();
 }
 
 std::optional<Rigid3d> Trajectory::pose(VehicleTime time) const {
@@ -45,7 +46,7 @@ std::optional<Rigid3d> Trajectory::pose(VehicleTime time) const {
                  a.translation + fraction * (b.translation - a.translation)};
 }
 
-TimeSpan Trajectory::survey() const {
+TimeSpan Trajectory::find_survey() const {
   const auto lower = [](const Rigid3d& a, const Rigid3d& b) { return a.translation.z() < b.translation.z(); };
   const double greatest_m =
       std::max_element(enu_from_body_.begin(), enu_from_body_.end(), lower)->translation.z();
@@ -55,6 +56,22 @@ TimeSpan Trajectory::survey() const {
   if (first == enu_from_body_.end()) return span();  // never above the ground
   return {times_[static_cast<std::size_t>(first - enu_from_body_.begin())],
           times_[static_cast<std::size_t>(enu_from_body_.rend() - last) - 1]};
+}
+
+Trajectory Trajectory::raised(double metres) const {
+  Trajectory result = *this;
+  for (Rigid3d& pose : result.enu_from_body_) pose.translation.z() += metres;
+  return result;
+}
+
+Trajectory Trajectory::at_speed(double factor) const {
+  const auto scaled = [factor](VehicleTime time) {
+    return VehicleTime{from_seconds(seconds(time.time_since_epoch()) / factor)};
+  };
+  Trajectory result = *this;
+  for (VehicleTime& time : result.times_) time = scaled(time);
+  result.survey_ = {scaled(survey_.begin), scaled(survey_.end)};
+  return result;
 }
 
 }  // namespace geoloc::sim

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
+import re
 import unittest
+import xml.etree.ElementTree
 
 from support import AppTest, run
 
@@ -24,6 +26,78 @@ class Baseline(AppTest):
         for threads, folder in (1, one), (3, three):
             run("geoloc_eval", "--flights", "stock", "--method", "paper", "--seeds", 5, "--threads", threads, "--report", folder)
         self.assertEqual((one / "report.json").read_bytes(), (three / "report.json").read_bytes())
+
+
+class Sweeps(AppTest):
+    """One circumstance varied: the pictures, the page and the figures agree, whatever the number of threads."""
+
+    def evaluate(self, folder, *arguments):
+        result = run("geoloc_eval", "--seeds", 1, "--report", folder, *arguments)
+        self.assertEqual(result.status, 0, result.err)
+        return json.loads((folder / "report.json").read_text())
+
+    def test_latency_harms_the_paper_and_not_full(self):
+        report = self.evaluate(self.folder, "--flights", "none", "--sweep", "latency")
+        self.assertEqual(report["runs"], [])
+        (sweep,) = report["sweeps"]
+        rmse_m = {(point["method"], point["value"]): point["mean_rmse_m"] for point in sweep["points"]}
+        self.assertGreater(rmse_m["paper", 0.3], 2 * rmse_m["paper", 0.0])
+        self.assertLess(rmse_m["full", 0.3], 1.3 * rmse_m["full", 0.0])
+
+    def test_the_usual_value_gives_the_tables_figures(self):
+        report = self.evaluate(self.folder, "--flights", "stock", "--scenarios", 1, "--sweep", "height")
+        (sweep,) = report["sweeps"]
+        for summary in report["summaries"]:
+            (usual,) = [point for point in sweep["points"]
+                        if point["value"] == sweep["usual_value"] and point["method"] == summary["method"]]
+            self.assertEqual(usual["mean_rmse_m"], summary["mean_rmse_m"])
+            self.assertEqual(usual["found"], summary["found"])
+
+    def test_the_page_stands_alone_and_its_pictures_are_whole(self):
+        self.evaluate(self.folder, "--flights", "stock", "--scenarios", 1, "--sweep", "pairs")
+        page = (self.folder / "report.html").read_text()
+        for needed_elsewhere in (r"<script", r"<link", r"\bsrc=", r"\bhref=", r"url\(", r"@import"):
+            self.assertNotRegex(page, needed_elsewhere)
+        drawings = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
+        self.assertEqual(len(drawings), 4 + 1)
+        for drawing in drawings + [(self.folder / "sweep_pairs.svg").read_text()]:
+            xml.etree.ElementTree.fromstring(drawing)
+        self.assertNotIn("nan", page)
+
+    def test_the_number_of_threads_changes_nothing(self):
+        for threads in (1, 3):
+            self.evaluate(self.folder / str(threads), "--flights", "none", "--sweep", "clutter", "--method", "paper",
+                          "--threads", threads)
+        self.assertEqual((self.folder / "1/report.json").read_bytes(), (self.folder / "3/report.json").read_bytes())
+
+
+class Rendered(AppTest):
+    """Drawn pictures and the real detector: the objects are those of the same run with drawn detections."""
+
+    def test_ten_seconds_of_a_flight(self):
+        result = run("geoloc_eval", "--flights", "none", "--scenarios", 3, "--seeds", 1, "--rendered", "--rendered-s", 10,
+                     "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        rendered = json.loads((self.folder / "report.json").read_text())["rendered"]
+        for pictures, model in zip(rendered["from_pictures"], rendered["from_model"], strict=True):
+            self.assertEqual(pictures["method"], model["method"])
+            self.assertGreaterEqual(pictures["found"], 6)
+            self.assertLessEqual(abs(pictures["found"] - model["found"]), 2)
+            self.assertLess(pictures["rmse_m"], 2 * model["rmse_m"] + 0.1)
+
+
+class UnusableArguments(AppTest):
+    """Status 2, a message that helps, and nothing written."""
+
+    def test_they_are_refused(self):
+        folder = self.folder / "report"
+        for arguments, hint in ((("--sweep", "depth"), "height"), (("--scenarios", 4), "scenarios"),
+                                (("--rendered", "--rendered-flight", "path9"), "stock_path1"),
+                                (("--rendered", "--rendered-s", 0), "rendered-s")):
+            result = run("geoloc_eval", "--flights", "none", "--report", folder, *arguments)
+            self.assertEqual(result.status, 2, result.err)
+            self.assertIn(hint, result.err)
+            self.assertFalse(folder.exists())
 
 
 if __name__ == "__main__":

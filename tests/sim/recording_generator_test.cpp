@@ -135,6 +135,18 @@ TEST(RecordingGenerator, MissesAndClutterAreAsFrequentAsAsked) {
   EXPECT_NEAR(clutter / static_cast<double>(all.size()), 0.03, 0.006);
 }
 
+TEST(RecordingGenerator, ClutterMayBeMoreThanABoxAFrame) {
+  const Flight flight = load("stock_path1");
+  RecordingSettings settings = without_errors();
+  const Frames clean = frames_of(flight, settings);
+  for (const double rate : {0.4, 1.0, 2.3, 5.0}) {
+    settings.detector.clutter_rate = rate;
+    const auto clutter =
+        static_cast<double>(detection_count(frames_of(flight, settings)) - detection_count(clean));
+    EXPECT_NEAR(clutter / static_cast<double>(clean.size()), rate, 0.04);
+  }
+}
+
 TEST(RecordingGenerator, StampsAreLateByLatencyAndJitterAndInOrder) {
   const Flight flight = load("stock_path1");
   RecordingSettings settings = without_errors();

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -65,6 +66,24 @@ TEST(ScenarioShape, GridIsRegular) {
 TEST(ScenarioShape, OtherNumbersAreRefused) {
   EXPECT_THROW(make_scenario(0, 1), std::invalid_argument);
   EXPECT_THROW(make_scenario(4, 1), std::invalid_argument);
+}
+
+TEST(Pairs, StandAsFarApartAsAskedAndApartFromOthers) {
+  for (const double distance_m : {0.3, 1.2, 3.0}) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+      const auto targets = make_pairs(distance_m, seed);
+      ASSERT_EQ(targets.size(), 30U);
+      const auto distances_m = nearest_distances_m(targets);
+      ASSERT_NEAR(distances_m.front(), distance_m, 1e-9);
+      ASSERT_NEAR(distances_m.back(), distance_m, 1e-9);
+      for (const Eigen::Vector2d& target : targets) {
+        ASSERT_LE(std::abs(target.x()), kAreaHalfEast_m);
+        ASSERT_LE(std::abs(target.y()), kAreaHalfNorth_m);
+      }
+    }
+  }
+  EXPECT_THROW(make_pairs(0.0, 1), std::invalid_argument);
+  EXPECT_THROW(make_pairs(std::nan(""), 1), std::invalid_argument);
 }
 
 }  // namespace

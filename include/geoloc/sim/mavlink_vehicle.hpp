@@ -13,8 +13,6 @@
 
 namespace geoloc::sim {
 
-using Datagram = std::vector<std::uint8_t>;
-
 /// Plays the telemetry of a recorded flight the way an autopilot would. Unasked it sends HEARTBEAT alone. It
 /// answers MAV_CMD_SET_MESSAGE_INTERVAL, REQUEST_DATA_STREAM, MAV_CMD_REQUEST_MESSAGE and TIMESYNC, and
 /// refuses other commands. Messages are the recorded ones, told again on this vehicle's own boot clock: at

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geoloc/sim/flight.hpp"
+#include "geoloc/sim/mavlink_encoder.hpp"
 #include "geoloc/sim/mavlink_frame.hpp"
 
 namespace geoloc::sim {
@@ -33,8 +34,8 @@ std::vector<RecordedStream> recorded_streams(const Flight& flight);
 /// MAV_DATA_STREAM in which ArduPilot sends a message; nullopt for those of none.
 std::optional<std::uint8_t> data_stream_of(std::uint32_t message_id);
 
-/// A payload as long as MAVLink allows; what MAVLink 2 cut off is zero.
-using Payload = std::array<std::uint8_t, 255>;
+/// A message's payload with the zeros that MAVLink 2 cut off.
+Payload whole_payload(const FrameView& frame);
 
 /// How a recorded message is told again.
 struct Retelling {

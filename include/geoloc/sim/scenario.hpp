@@ -24,4 +24,8 @@ inline constexpr double kClosestPair_m = 1.2;
 /// another number.
 std::vector<Eigen::Vector2d> make_scenario(int number, std::uint64_t seed);
 
+/// As many targets in pairs: the two of a pair `distance_m` apart in a random direction, pairs far from each
+/// other. Throws std::invalid_argument for a distance outside (0, 5] m.
+std::vector<Eigen::Vector2d> make_pairs(double distance_m, std::uint64_t seed);
+
 }  // namespace geoloc::sim

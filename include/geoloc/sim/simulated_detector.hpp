@@ -19,7 +19,7 @@ struct DetectorModel {
   double target_size_m = 0.8;         ///< [m] diameter of a target on the ground
   double pixel_noise_px = 1.5;        ///< [px] 1-sigma of a box's centre in x and in y
   double miss_rate = 0.05;            ///< share of the visible targets that are not found
-  double clutter_rate = 0.03;         ///< share of the frames with one box where nothing is
+  double clutter_rate = 0.03;         ///< mean number of boxes where nothing is, a frame; 2.3: two or three
   double min_visible_fraction = 1.0;  ///< of a target's box within the image; below it is not found
 
   /// Every fault, named by its JSON path.
@@ -42,6 +42,7 @@ class SimulatedDetector {
   std::vector<Detection> detect(const Rigid3d& enu_from_camera);
 
  private:
+  int draw_clutter_count();
   Detection draw_clutter();
 
   DetectorModel model_;

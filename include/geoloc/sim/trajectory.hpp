@@ -45,14 +45,24 @@ class Trajectory {
   TimeSpan span() const { return {times_.front(), times_.back()}; }
 
   /// From when the vehicle first reached 95 % of its greatest height to when it last left it: the survey.
-  TimeSpan survey() const;
+  TimeSpan survey() const { return survey_; }
+
+  /// The same flight so much higher; its survey stays what it was.
+  Trajectory raised(double metres) const;
+
+  /// The same places with the same tilts `factor` times as fast: every time of the vehicle's clock is
+  /// divided.
+  Trajectory at_speed(double factor) const;
 
   const LocalFrame& frame() const { return frame_; }
 
  private:
+  TimeSpan find_survey() const;
+
   LocalFrame frame_;
   std::vector<VehicleTime> times_;
   std::vector<Rigid3d> enu_from_body_;
+  TimeSpan survey_;
 };
 
 }  // namespace geoloc::sim

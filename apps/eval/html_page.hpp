@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "eval/report_folder.hpp"
+
+namespace geoloc::apps {
+
+/// Everything on one page that needs nothing else: no network, no scripts. For telephones and large screens,
+/// light and dark.
+std::string to_html(const EvalResults& results);
+
+}  // namespace geoloc::apps

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/html_table.hpp"
+
+#include "eval/chart.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+std::string html_row(const std::vector<std::string>& cells, const char* first_cell, const char* cell) {
+  std::string html = "<tr>";
+  const char* kind = first_cell;
+  for (const std::string& text : cells) {
+    html += std::string("<") + kind + ">" + escape_markup(text) + "</" + std::string(kind, 2) + ">";
+    kind = cell;
+  }
+  return html + "</tr>\n";
+}
+
+}  // namespace
+
+std::string to_html(const HtmlTable& table) {
+  std::string html = "<div class=\"scroll\"><table>\n";
+  if (!table.caption.empty()) html += "<caption>" + escape_markup(table.caption) + "</caption>\n";
+  html += "<thead>" + html_row(table.header, "th", "th") + "</thead>\n<tbody>\n";
+  for (const auto& row : table.rows) html += html_row(row, "th scope=\"row\"", "td");
+  return html + "</tbody></table></div>\n";
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# scripts/results.sh: makes the figures and pictures of docs/results.md anew: every flight, every sweep, and three runs with
+# rendered pictures. Takes about ten minutes on two cores. The sentences there are written by hand: read them afterwards.
+set -euo pipefail
+ROOT=$(cd "$(dirname "$0")/.." && pwd)
+cd "$ROOT"
+[ $# -eq 0 ] || { sed -n '3,4s/^# //p' "$0"; [ "$1" = --help ] && exit 0; exit 2; }
+
+mkdir -p build
+source scripts/packages.sh
+install_packages "${BUILD_PACKAGES[@]}"
+if [ ! -f build/release/build.ninja ]; then
+  say "Configuring"
+  cmake --preset demo >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+fi
+say "Building"
+cmake --build build/release --target geoloc_eval
+say "Evaluating"
+rm -rf build/results
+build/release/bin/geoloc_eval --known-points 2 --sweep all --rendered --report build/results >/dev/null
+
+say "Writing docs/results.md"
+python3 - build/results/report.md docs/results.md <<'PYTHON'
+import pathlib, re, sys
+
+report, page = (pathlib.Path(name) for name in sys.argv[1:])
+blocks = dict(re.findall(r"<!-- begin (\w+) -->\n(.*?)<!-- end \1 -->\n", report.read_text(), re.DOTALL))
+text, filled = re.subn(r"(<!-- begin (\w+) -->\n).*?(<!-- end \2 -->\n)",
+                       lambda found: found[1] + blocks.pop(found[2]) + found[3], page.read_text(), flags=re.DOTALL)
+if blocks or not filled:
+    sys.exit(f"{page}: lacks the comments 'begin' and 'end' of: {', '.join(blocks)}")
+page.write_text(text)
+PYTHON
+mkdir -p docs/images/results
+rm -f docs/images/results/*.svg
+cp build/results/*.svg docs/images/results/
+say "Done. The page for reading: build/results/report.html"
