@@ -39,8 +39,9 @@ std::vector<Detection> grid_of_detections(int count, double focal_px) {
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   std::vector<Detection> detections;
   for (int i = 0; i < count; ++i) {
-    const double u = 639.5 + (i % side - 0.5 * (side - 1)) * spacing_px;
-    const double v = 359.5 + (i / side - 0.5 * (side - 1)) * spacing_px;
+    const int column = i % side, row = i / side;
+    const double u = 639.5 + (column - 0.5 * (side - 1)) * spacing_px;
+    const double v = 359.5 + (row - 0.5 * (side - 1)) * spacing_px;
     detections.push_back({{u - 4.0, v - 4.0, 8.0, 8.0}, 0.9, 0});
   }
   return detections;

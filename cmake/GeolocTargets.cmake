@@ -9,7 +9,10 @@ endif()
 function(geoloc_set_flags target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wshadow)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion)
+  if(NOT CMAKE_UNITY_BUILD)  # there, the names of one file hide those of another
+    target_compile_options(${target} PRIVATE -Wshadow)
+  endif()
   if(GEOLOC_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
@@ -46,11 +49,18 @@ function(geoloc_add_program target)
 endfunction()
 
 # geoloc_add_test(tracking SOURCES a_test.cpp … LIBRARIES …): one GoogleTest program a module, each case a ctest test.
+# APART: its files name helpers alike, so they are never compiled as one (CMAKE_UNITY_BUILD).
 function(geoloc_add_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "SOURCES;LIBRARIES")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "APART" "TIMEOUT" "SOURCES;LIBRARIES")
   set(target ${name}_test)
   add_executable(${target} ${arg_SOURCES})
   geoloc_set_flags(${target})
+  if(arg_APART)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
+  endif()
+  # It replaces operator new, which must not be seen where it is called.
+  set_source_files_properties("${PROJECT_SOURCE_DIR}/tests/support/allocation_counter.cpp"
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_compile_definitions(${target} PRIVATE
     GEOLOC_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data" GEOLOC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")

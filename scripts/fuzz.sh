@@ -1,20 +1,34 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/fuzz.sh [SECONDS]: builds the fuzz targets with clang and runs each for so long (default 60).
+# scripts/fuzz.sh [SECONDS]: builds the fuzz targets with clang and runs each for so long (default 60), as many at a time as
+# there are cores. What broke one lies in build/fuzz/broken.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"
-seconds=${1:-60}
+export SECONDS_EACH=${1:-60}
 mkdir -p build
 source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${LINT_PACKAGES[@]}"
+say "Configuring (fuzz)"
 cmake --preset fuzz >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
-cmake --build build/fuzz
-for target in build/fuzz/bin/*_fuzz; do
-  say "$(basename "$target") for $seconds s"
-  corpus="build/fuzz/corpus/$(basename "$target")"
-  mkdir -p "$corpus"
-  "$target" -max_total_time="$seconds" -max_len=4096 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 "$corpus" \
-    2>build/fuzz/log.txt || { tail -n 40 build/fuzz/log.txt; exit 1; }
-  grep -E 'number_of_executed_units' build/fuzz/log.txt
-done
+say "Building (fuzz)"
+cmake --build build/fuzz --target fuzzers
+
+# A target starts from well-formed inputs, and from what earlier runs here found.
+fuzz() {
+  local name=$1 corpus=build/fuzz/corpus/$1 log=build/fuzz/$1.log seeds=()
+  case $name in
+    mavlink | tlog) seeds=(tests/data/mavlink) ;;
+    onnx_metadata) seeds=(tests/data/onnx) ;;
+    *) [ ! -d "tests/fuzz/seeds/$name" ] || seeds=("tests/fuzz/seeds/$name") ;;
+  esac
+  mkdir -p "$corpus" build/fuzz/broken
+  "build/fuzz/bin/${name}_fuzz" -max_total_time="$SECONDS_EACH" -max_len=4096 -timeout=10 -rss_limit_mb=2048 \
+    -print_final_stats=1 -artifact_prefix="build/fuzz/broken/$name-" "$corpus" "${seeds[@]}" 2>"$log" ||
+    { tail -n 40 "$log"; return 1; }
+  echo "$name: $(grep -o 'number_of_executed_units: .*' "$log")"
+}
+export -f fuzz
+targets=(build/fuzz/bin/*_fuzz)
+say "Fuzzing ${#targets[@]} targets, $SECONDS_EACH s each"
+printf '%s\n' "${targets[@]}" | sed 's#.*/##; s#_fuzz$##' | xargs -P "$(nproc)" -I{} bash -c 'fuzz {}'

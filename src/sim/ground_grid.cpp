@@ -15,7 +15,7 @@ int nodes_across(int pixels) {
 GroundGrid::GroundGrid(const CameraModel& camera)
     : columns_(nodes_across(camera.intrinsics().width_px)),
       rows_(nodes_across(camera.intrinsics().height_px)) {
-  bearings_.reserve(static_cast<std::size_t>(columns_ * rows_));
+  bearings_.reserve(size());
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       const auto ray = camera.ray({pixel_of(column), pixel_of(row)});

@@ -34,8 +34,13 @@ class GroundGrid {
 
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  const Node& node(int column, int row) const {
-    return nodes_[static_cast<std::size_t>(row * columns_ + column)];
+  const Node& node(int column, int row) const { return nodes_[index(column, row)]; }
+
+  /// Number of all nodes, and of one among them, row by row.
+  std::size_t size() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
 
   /// All four corners of the cell right of and below the node see the ground.

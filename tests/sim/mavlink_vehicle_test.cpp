@@ -17,7 +17,7 @@
 namespace geoloc::sim {
 namespace {
 
-constexpr std::uint32_t kHeartbeat = 0, kGlobalPositionInt = 33, kHomePosition = 242;
+constexpr std::uint32_t kGlobalPositionInt = 33, kHomePosition = 242;
 constexpr std::uint8_t kAccepted = 0, kDenied = 2, kUnsupported = 3;
 constexpr io::MavAddress kCompanion{1, 191};
 constexpr HostTime kStart{std::chrono::seconds{1'800'000'000}};

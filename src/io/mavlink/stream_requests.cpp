@@ -31,7 +31,7 @@ Duration pause_after(int attempts) {
 
 }  // namespace
 
-void StreamRequests::want(std::vector<WantedStream> streams, HostTime now) {
+void StreamRequests::want(const std::vector<WantedStream>& streams, HostTime now) {
   streams_.clear();
   for (const WantedStream& wanted : streams) streams_.push_back({wanted, {}, {}, 0, Answer::kNone});
   restart(now);

@@ -125,8 +125,10 @@ TEST(YoloDecode, RejectsAndCountsWhatCannotBeABox) {
 
 TEST(YoloDecode, ANetworkGoneWrongGivesNoMoreThanTheLimit) {
   std::vector<Candidate> candidates;
-  for (int i = 0; i < 20'000; ++i)
-    candidates.push_back({static_cast<float>(i % 640), static_cast<float>(i / 640), 1, 1, {0.9F}});
+  for (int i = 0; i < 20'000; ++i) {
+    const int row = i / 640;
+    candidates.push_back({static_cast<float>(i % 640), static_cast<float>(row), 1, 1, {0.9F}});
+  }
   EXPECT_EQ(decode(candidates).detections.size(), 300U);
 }
 

@@ -36,7 +36,7 @@ class StreamRequests {
   };
 
   /// Wants these from now on, and looks for a second at what comes by itself.
-  void want(std::vector<WantedStream> streams, HostTime now);
+  void want(const std::vector<WantedStream>& streams, HostTime now);
 
   /// The vehicle rebooted or was out of reach: nothing of before counts.
   void restart(HostTime now);
