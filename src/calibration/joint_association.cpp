@@ -22,6 +22,12 @@ constexpr int kRounds = 2;
 /// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.
 constexpr std::size_t kPairingsPerLook = 16;
 
+/// J P J'. lazyProduct: Eigen takes matrices of this size for large ones, and packs them first.
+Eigen::Matrix2d projected(const SharedError::Row& jacobian, const SharedError::Matrix& covariance) {
+  const SharedError::Row product = jacobian.lazyProduct(covariance);
+  return product.lazyProduct(jacobian.transpose());
+}
+
 }  // namespace
 
 JointAssociation::JointAssociation(int max_looks, int max_tracks) {
@@ -57,8 +63,7 @@ void JointAssociation::begin(std::size_t looks, const SharedError::Matrix& prior
 
 void JointAssociation::add(const Pairing& pairing) {
   if (pairings_.size() == pairings_.capacity()) return;
-  const Eigen::Matrix2d covariance =
-      pairing.own_covariance + pairing.jacobian * prior_ * pairing.jacobian.transpose();
+  const Eigen::Matrix2d covariance = pairing.own_covariance + projected(pairing.jacobian, prior_);
   const double cost = mahalanobis_squared(pairing.residual, covariance) + pairing.penalty;
   if (!(cost < gate_)) return;
   pairings_.push_back(pairing);
@@ -75,15 +80,17 @@ void JointAssociation::add(const Pairing& pairing) {
 }
 
 void JointAssociation::Estimate::add(const Pairing& pairing) {
-  const Eigen::Matrix<double, SharedError::kSize, 2> crossed = covariance * pairing.jacobian.transpose();
-  const Eigen::Matrix2d innovation_covariance = pairing.own_covariance + pairing.jacobian * crossed;
+  const Eigen::Matrix<double, SharedError::kSize, 2> crossed =
+      covariance.lazyProduct(pairing.jacobian.transpose());
+  const Eigen::Matrix2d innovation_covariance =
+      pairing.own_covariance + pairing.jacobian.lazyProduct(crossed);
   const Eigen::Matrix2d information = innovation_covariance.inverse();
   const Eigen::Vector2d innovation = pairing.residual - pairing.jacobian * mean;
   cost += innovation.dot(information * innovation) + std::log(innovation_covariance.determinant()) +
           pairing.penalty;
   const Eigen::Matrix<double, SharedError::kSize, 2> gain = crossed * information;
   mean += gain * innovation;
-  covariance -= gain * crossed.transpose();
+  covariance -= gain.lazyProduct(crossed.transpose());
 }
 
 JointAssociation::Estimate JointAssociation::given_nothing() const {
@@ -117,7 +124,7 @@ void JointAssociation::assign(const Estimate& estimate, int look_left_alone,
     if (pairing.look == look_left_alone) continue;
     const int column = column_of_track_[static_cast<std::size_t>(pairing.track)];
     const Eigen::Matrix2d covariance =
-        pairing.own_covariance + pairing.jacobian * estimate.covariance * pairing.jacobian.transpose();
+        pairing.own_covariance + projected(pairing.jacobian, estimate.covariance);
     costs(pairing.look, column) =
         mahalanobis_squared(pairing.residual - pairing.jacobian * estimate.mean, covariance) +
         pairing.penalty;
@@ -185,7 +192,7 @@ void JointAssociation::report_best() {
     const Pairing& pairing = pairings_[static_cast<std::size_t>(best.pairing_of_look[i])];
     match.innovation = pairing.residual - pairing.jacobian * best.estimate.mean;
     match.innovation_covariance =
-        pairing.own_covariance + pairing.jacobian * best.estimate.covariance * pairing.jacobian.transpose();
+        pairing.own_covariance + projected(pairing.jacobian, best.estimate.covariance);
   }
 }
 
@@ -196,8 +203,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
       Match& match = matches_[static_cast<std::size_t>(pairing.look)];
       match.track = pairing.track;
       match.innovation = pairing.residual;
-      match.innovation_covariance =
-          pairing.own_covariance + pairing.jacobian * prior_ * pairing.jacobian.transpose();
+      match.innovation_covariance = pairing.own_covariance + projected(pairing.jacobian, prior_);
     }
     return matches_;
   }
