@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/calibration/full_tracker.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -20,8 +21,9 @@ constexpr int kMergeHits = 3;
 /// What two tracks of one object may differ by beyond their stated noise: its looks differ with the
 /// direction.
 constexpr double kSigmaSameObject_m = 0.15;
-/// The wandering is learnt now and then: it costs a solution, and changes slowly.
-constexpr int kSolutionsPerLesson = 2;
+/// The wandering is learnt now and then: it costs as much as a solution. Often at first, until it has
+/// settled.
+constexpr int kSolutionsToSettle = 200, kSolutionsPerLesson = 2, kSolutionsPerLessonLater = 10;
 /// Bounds of what the reported accuracy is believed to be wrong by.
 constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
 /// What the assumed detection probability counts for against observed ones.
@@ -247,19 +249,23 @@ double FullTracker::spread(const SharedError::Row& jacobian) const {
          (drift * solver_.newest_node_covariance() * drift.transpose()).trace();
 }
 
-/// All tracks that the look may show. Far ones are told by a bound: tr((a-b) P (a-b)') <= 2 (tr a P a' + tr b
-/// P b').
+/// With P = R R', (a - b) P (a - b)' is the square of aR - bR: cheap for every pair of look and track.
+void FullTracker::whiten(const SharedError::Matrix& root) {
+  for (Look& look : looks_) look.whitened_jacobian = look.jacobian.lazyProduct(root);
+  for (Estimate& estimate : estimates_) estimate.whitened_gain = estimate.gain.lazyProduct(root);
+}
+
+/// All tracks that the look may show; those that are farther than the trace of the covariance allows are not
+/// looked at closely.
 void FullTracker::add_pairings(int look_index) {
   const Look& look = looks_[static_cast<std::size_t>(look_index)];
-  const double time_bound =
-      std::pow(config_.sigma_time_s, 2) * look.jacobian.col(SharedError::kTime).squaredNorm();
-  const double look_bound = look.pixel_noise.trace() + frame_noise_.trace() + time_bound + 2.0 * look.spread;
+  const double look_bound = look.pixel_noise.trace();
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     const Estimate& estimate = estimates_[k];
-    const Eigen::Vector2d residual = look.position - tracks_[k].position_in_enu.mean;
-    const double bound = look_bound + estimate.own_covariance.trace() + 2.0 * estimate.gain_spread;
-    if (!(residual.squaredNorm() < config_.gate * bound)) continue;
-    association_.add(pairing(look_index, static_cast<int>(k)));
+    const double distance_squared = (look.position - tracks_[k].position_in_enu.mean).squaredNorm();
+    const double bound = look_bound + estimate.own_covariance.trace() + frame_noise_.trace() +
+                         (look.whitened_jacobian - estimate.whitened_gain).squaredNorm();
+    if (distance_squared < config_.gate * bound) association_.add(pairing(look_index, static_cast<int>(k)));
   }
 }
 
@@ -302,7 +308,10 @@ Eigen::Vector2d FullTracker::common_shift() {
 }
 
 void FullTracker::associate() {
-  association_.begin(looks_.size(), shared_prior(), config_.gate, config_.ambiguity);
+  const SharedError::Matrix prior = shared_prior();
+  constexpr double kTiny = 1e-18;  // for components that are exactly known
+  whiten((prior + kTiny * SharedError::Matrix::Identity()).llt().matrixL());
+  association_.begin(looks_.size(), prior, config_.gate, config_.ambiguity);
   for (std::size_t i = 0; i < looks_.size(); ++i) add_pairings(static_cast<int>(i));
   matches_ = &association_.solve();
   shift_ = common_shift();
@@ -558,7 +567,8 @@ bool FullTracker::match_known_points() {
 }
 
 void FullTracker::learn_wandering() {
-  if (++solutions_ % kSolutionsPerLesson != 0) return;
+  const int pause = solutions_ < kSolutionsToSettle ? kSolutionsPerLesson : kSolutionsPerLessonLater;
+  if (++solutions_ % pause != 0) return;
   const auto wandering = solver_.observed_wandering(drift_);
   if (wandering) drift_.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
 }

@@ -58,6 +58,8 @@ class FullTracker {
     Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();     // A^-1
     SharedError::Row gain = SharedError::Row::Zero();  // of the position, by what the next looks share
     double gain_spread = 0.0;                          // trace of the position's covariance through it
+    SharedError::Row whitened_gain =
+        SharedError::Row::Zero();  // gain times a root of the shared error's covariance
   };
 
   /// A detection of the present frame.
@@ -65,9 +67,10 @@ class FullTracker {
     LandmarkObservation observation;
     Eigen::Vector2d position;  // corrected by calibration and drift
     Eigen::Matrix2d pixel_noise;
-    SharedError::Row jacobian;     // of the position
-    double spread = 0.0;           // trace of the position's covariance through the shared error
-    double clutter_density = 0.0;  // [1/m^2]
+    SharedError::Row jacobian;           // of the position
+    SharedError::Row whitened_jacobian;  // times a root of the shared error's covariance
+    double spread = 0.0;                 // trace of the position's covariance through the shared error
+    double clutter_density = 0.0;        // [1/m^2]
     double size_m = 0.0;
     const Detection* detection = nullptr;
   };
@@ -80,6 +83,7 @@ class FullTracker {
   void add_pairings(int look);
   Pairing pairing(int look, int track) const;
   SharedError::Matrix shared_prior() const;
+  void whiten(const SharedError::Matrix& root);
   double spread(const SharedError::Row& jacobian) const;
   bool is_matched(std::size_t look) const;
   Eigen::Vector2d common_shift();
