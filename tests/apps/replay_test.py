@@ -3,7 +3,7 @@ import json
 import shutil
 import unittest
 
-from support import AppTest, run, tree
+from support import AppTest, rmse_m, run, tree
 
 
 class Determinism(AppTest):
@@ -29,6 +29,59 @@ class Determinism(AppTest):
         first = tree(self.make_recording("first"))
         self.assertEqual(first, tree(self.make_recording("second")))
         self.assertNotEqual(first["frames.jsonl"], tree(self.make_recording("other", "--seed", 2))["frames.jsonl"])
+
+
+class Priors(AppTest):
+    """What is known before a flight makes its results better, and is not believed where it contradicts them."""
+
+    def setUp(self):
+        super().setUp()
+        self.recording = self.folder / "gnss"
+        self.assertEqual(run("geoloc_sim", "--record", self.recording, "--flight", "gnss_path1", "--seed", 3).status, 0)
+        self.targets = json.loads((self.recording / "truth.geojson").read_text())["features"]
+
+    def replay(self, *options):
+        out = self.folder / "objects.geojson"
+        result = run("geoloc_replay", self.recording, "--out", out, *options)
+        self.assertEqual(result.status, 0, result.err)
+        return json.loads(out.read_text()), rmse_m(result.err), result.err
+
+    def survey(self, targets, north_deg=0.0):
+        file = self.folder / "survey.geojson"
+        features = [dict(target, properties={"id": f"mark {i}"}) for i, target in enumerate(targets)]
+        for feature in features:
+            lon, lat = feature["geometry"]["coordinates"][:2]
+            feature["geometry"] = {"type": "Point", "coordinates": [lon, lat + north_deg]}
+        file.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+        return file
+
+    def test_two_known_points_take_the_receivers_offset_out(self):
+        _, without, _ = self.replay()
+        objects, told, _ = self.replay("--reference", self.survey([self.targets[0], self.targets[29]]))
+        self.assertEqual([reference["status"] for reference in objects["references"]], ["matched", "matched"])
+        self.assertLess(told, 0.6 * without)
+
+    def test_a_known_point_where_nothing_is_changes_nothing_and_is_reported(self):
+        expected, _, _ = self.replay()
+        objects, _, messages = self.replay("--reference", self.survey(self.targets[:1], north_deg=1e-4))
+        self.assertEqual(objects["features"], expected["features"])
+        self.assertNotEqual(objects["references"][0]["status"], "matched")
+        self.assertIn("reference mark 0 not used", messages)
+
+    def test_a_vehicle_flown_twice_starts_calibrated(self):
+        first, _, _ = self.replay()
+        (self.folder / "first.geojson").write_text(json.dumps(first))
+        second, _, _ = self.replay("--calibration", self.folder / "first.geojson")
+        for key in "boresight_x_deg", "latency_s":
+            self.assertAlmostEqual(second["calibration"][key]["value"], first["calibration"][key]["value"],
+                                   delta=3 * first["calibration"][key]["sigma"])
+
+    def test_unusable_files_are_refused_before_anything_starts(self):
+        for options in (["--reference", "missing.geojson"], ["--calibration", "missing.geojson"],
+                        ["--method", "paper", "--reference", self.survey(self.targets[:1])]):
+            result = run("geoloc_replay", self.recording, *options)
+            self.assertEqual(result.status, 2)
+            self.assertIn("--reference" if "paper" in options else "missing.geojson", result.err)
 
 
 class BadRecordings(AppTest):

@@ -139,6 +139,11 @@ class World:
         return "--udp", f"127.0.0.1:{self.udp_port}", "--rtsp", f"rtsp://127.0.0.1:{self.rtsp_port}/cam"
 
 
+def rmse_m(summary):
+    """Of a program's last line about a run with known truth."""
+    return float(re.search(r"RMSE ([\d.]+) m", summary)[1])
+
+
 def tree(folder):
     """Every file below a folder with its bytes."""
     return {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}

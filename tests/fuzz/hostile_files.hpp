@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "geoloc/io/config/calibration_file.hpp"
 #include "geoloc/io/config/geolocator_fields.hpp"
+#include "geoloc/io/config/known_points_file.hpp"
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/camera_file.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
@@ -94,6 +96,18 @@ inline void read_any_config(const std::string& text) {
 inline void read_any_truth(const std::string& text) {
   try {
     for (const TrueTarget& target : parse_truth(text, "any")) require(is_valid(target.position));
+  } catch (const std::runtime_error&) {
+  }
+}
+
+/// --reference and --calibration.
+inline void read_any_priors(const std::string& text) {
+  try {
+    for (const KnownPoint& point : parse_known_points(text, "any")) require(point.problems().empty());
+  } catch (const std::runtime_error&) {
+  }
+  try {
+    require(parse_calibration(text, "any", {}, 0.7).problems().empty());
   } catch (const std::runtime_error&) {
   }
 }

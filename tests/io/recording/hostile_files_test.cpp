@@ -82,5 +82,13 @@ TEST(HostileFiles, Truth) {
                   &hostile::read_any_truth);
 }
 
+TEST(HostileFiles, Priors) {
+  damage_and_read(
+      R"({"features":[{"geometry":{"coordinates":[-43.13,-22.9]},"properties":{"id":"a","sigma_m":0.1}}],)"
+      R"("calibration":{"boresight_x_deg":{"value":0.5,"sigma":0.1},"boresight_y_deg":{"value":0,"sigma":1},)"
+      R"("boresight_z_deg":{"value":0,"sigma":1},"latency_s":{"value":0.1,"sigma":0.01}}})",
+      &hostile::read_any_priors);
+}
+
 }  // namespace
 }  // namespace geoloc::io
