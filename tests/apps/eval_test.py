@@ -28,6 +28,49 @@ class Baseline(AppTest):
         self.assertEqual((one / "report.json").read_bytes(), (three / "report.json").read_bytes())
 
 
+class FullMethod(AppTest):
+    """What docs/results.md promises of the full method, over every run of the seeds 0, 1 and 2."""
+
+    def setUp(self):
+        super().setUp()
+        result = run("geoloc_eval", "--known-points", 2, "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        self.report = json.loads((self.folder / "report.json").read_text())
+
+    def summary(self, flights, method):
+        (found,) = [s for s in self.report["summaries"] if s["set"] == flights and s["method"] == method]
+        return found
+
+    def assert_found_all(self, summary):
+        self.assertEqual((summary["found"], summary["extra"], summary["merged_pairs"]), (summary["targets"], 0, 0))
+
+    def test_accuracy_and_completeness(self):
+        for flights, method, rmse_m, relative_rmse_m in (("stock", "full", 0.072, 0.069), ("gnss", "full", 0.60, 0.25),
+                                                         ("gnss", "full, 2 known points", 0.28, 0.25)):
+            with self.subTest(flights=flights, method=method):
+                summary = self.summary(flights, method)
+                self.assertLessEqual(summary["mean_rmse_m"], rmse_m)
+                self.assertLessEqual(summary["mean_relative_rmse_m"], relative_rmse_m)
+                self.assert_found_all(summary)
+
+    def test_stated_covariances_are_right_within_a_factor_of_two(self):
+        for flights in "stock", "gnss":
+            self.assertGreaterEqual(self.summary(flights, "full")["mean_nees"], 0.5 * 2)
+            self.assertLessEqual(self.summary(flights, "full")["mean_nees"], 2 * 2)
+
+    def test_latency_and_boresight_of_every_stock_run(self):
+        stock = self.summary("stock", "full")
+        self.assertLessEqual(stock["worst_latency_error_s"], 0.020)
+        self.assertLessEqual(stock["worst_boresight_error_deg"], 0.25)
+        self.assertLessEqual(stock["worst_error_in_sigmas"], 3)
+
+    def test_no_run_is_much_worse_than_with_the_papers_method(self):
+        rmse_m = {(r["flight"], r["scenario"], r["seed"], r["method"]): r["rmse_m"] for r in self.report["runs"]}
+        for (*key, method), value in rmse_m.items():
+            if method == "full":
+                self.assertLessEqual(value, rmse_m[(*key, "paper")] + 0.05, key)
+
+
 class Sweeps(AppTest):
     """One circumstance varied: the pictures, the page and the figures agree, whatever the number of threads."""
 
