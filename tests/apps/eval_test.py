@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
+import pathlib
 import re
+import tempfile
 import unittest
 import xml.etree.ElementTree
 
@@ -31,11 +33,12 @@ class Baseline(AppTest):
 class FullMethod(AppTest):
     """What docs/results.md promises of the full method, over every run of the seeds 0, 1 and 2."""
 
-    def setUp(self):
-        super().setUp()
-        result = run("geoloc_eval", "--known-points", 2, "--report", self.folder)
-        self.assertEqual(result.status, 0, result.err)
-        self.report = json.loads((self.folder / "report.json").read_text())
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory(prefix="geoloc-test-") as folder:
+            result = run("geoloc_eval", "--known-points", 2, "--report", folder)
+            assert result.status == 0, result.err
+            cls.report = json.loads((pathlib.Path(folder) / "report.json").read_text())
 
     def summary(self, flights, method):
         (found,) = [s for s in self.report["summaries"] if s["set"] == flights and s["method"] == method]

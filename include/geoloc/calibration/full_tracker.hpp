@@ -46,6 +46,9 @@ class FullTracker {
   Calibration calibration_of_camera() const;
 
  private:
+  /// Looks that make a track worth comparing with others and with known points.
+  static constexpr int kHitsToCompare = 3;
+
   /// What the tracker knows of a track beyond its public face; same index as in tracks_.
   struct Estimate {
     std::size_t landmark = 0;  // place in landmarks_

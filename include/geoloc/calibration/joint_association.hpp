@@ -12,6 +12,7 @@ namespace geoloc {
 /// What all looks of a frame are off by together, as one vector: calibration (without the offset, which
 /// cancels between a look and a track that looks made), drift of the vehicle's state, noise of the frame.
 struct SharedError {
+  static constexpr int kCalibrationSize = 5;
   static constexpr int kCalibration = 0;  ///< boresight, latency, height
   static constexpr int kDrift = 5;        ///< east, north, yaw
   static constexpr int kFrame = 8;        ///< east, north
