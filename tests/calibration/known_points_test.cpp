@@ -6,7 +6,7 @@
 namespace geoloc {
 namespace {
 
-constexpr double kGate = 11.8, kAmbiguity = 9.0;
+constexpr double kMatchGate = 11.8, kMatchAmbiguity = 9.0;
 const LocalFrame kFrame({-22.906, -43.133});
 
 KnownPoint point_at(const Eigen::Vector2d& position_in_enu) {
@@ -27,7 +27,7 @@ KnownPoints covered(const std::vector<KnownPoint>& points) {
 
 bool match(KnownPoints& known, const std::vector<KnownPoints::Candidate>& candidates) {
   constexpr double kShared_m = 0.5, kOwn_m = 0.1;
-  return known.match(candidates, kShared_m, kOwn_m, kGate, kAmbiguity);
+  return known.match(candidates, kShared_m, kOwn_m, kMatchGate, kMatchAmbiguity);
 }
 
 TEST(KnownPoints, AreMatchedToTheObjectsThatAreAllOffByTheSame) {
