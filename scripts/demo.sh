@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # scripts/demo.sh [--fast] [--method NAME] [--flight NAME] [--scenario 1|2|3] [--seed N] [--out DIR]
 # The whole system on one computer: a simulated drone sends MAVLink over UDP and its camera over RTSP; geoloc_app finds
-# 30 targets in the video and says where they are. --fast flies five times as fast.
+# 30 targets in the video and says where they are. --fast flies six times as fast.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"
@@ -10,7 +10,7 @@ cd "$ROOT"
 speed=1 flight=stock_path1 scenario=1 seed=1 out= method=()
 while [ $# -gt 0 ]; do
   case $1 in
-    --fast) speed=5 ;;
+    --fast) speed=6 ;;
     --method) method=(--method "$2"); shift ;;
     --flight) flight=$2; shift ;;
     --scenario) scenario=$2; shift ;;
