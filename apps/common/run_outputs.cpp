@@ -40,6 +40,23 @@ std::vector<Gaussian2> confirmed(const Session& session, const LeftOut& left_out
   return objects;
 }
 
+/// What became of the known points, where it is not what the user expects.
+std::string unused_known_points(const Geolocator& geolocator) {
+  std::string lines;
+  const auto& entries = geolocator.known_points();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const char* reason = nullptr;
+    if (entries[i].status == KnownPointStatus::kNotCovered)
+      reason = "the camera did not look there long enough";
+    if (entries[i].status == KnownPointStatus::kNoObject)
+      reason = "no object there agrees with it and with the other references: check its coordinates";
+    if (entries[i].status == KnownPointStatus::kAmbiguous) reason = "several objects may be the one";
+    if (reason != nullptr)
+      lines += fmt::format("\nreference {} not used: {}", geolocator.config().known_points[i].name, reason);
+  }
+  return lines;
+}
+
 std::string picture_of(const Session& session, const std::vector<io::ObjectReport>& objects,
                        const std::vector<io::TrueTarget>& truth, const std::string& title) {
   io::RunPicture picture;
@@ -84,27 +101,6 @@ double consistency_of_run(const Session& session, const std::vector<io::TrueTarg
   if (!session.geolocator().local_frame()) return 0.0;
   return mean_nees(confirmed(session, left_out), in_enu(truth, session.geolocator()), score.target_of_object);
 }
-
-namespace {
-
-/// What became of the known points, where it is not what the user expects.
-std::string unused_known_points(const Geolocator& geolocator) {
-  std::string lines;
-  const auto& entries = geolocator.known_points();
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    const char* reason = nullptr;
-    if (entries[i].status == KnownPointStatus::kNotCovered)
-      reason = "the camera did not look there long enough";
-    if (entries[i].status == KnownPointStatus::kNoObject)
-      reason = "no object there agrees with it and with the other references: check its coordinates";
-    if (entries[i].status == KnownPointStatus::kAmbiguous) reason = "several objects may be the one";
-    if (reason != nullptr)
-      lines += fmt::format("\nreference {} not used: {}", geolocator.config().known_points[i].name, reason);
-  }
-  return lines;
-}
-
-}  // namespace
 
 std::string summarize(const Session& session, const std::vector<io::TrueTarget>& truth) {
   const std::string unused = unused_known_points(session.geolocator());

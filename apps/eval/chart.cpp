@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "eval/axis_scale.hpp"
+#include "geoloc/io/output/markup.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -62,11 +63,11 @@ void draw_axes(const Chart& chart, const Plane& plane, std::string& svg) {
   fmt::format_to(out, "<path class=\"gc-axis\" d=\"M{:.1f} {:.1f}V{:.1f}H{:.1f}\"/>\n", kLeft, kTop, kBottom,
                  kRight);
   fmt::format_to(out, "<text class=\"gc-label\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>\n",
-                 0.5 * (kLeft + kRight), kBottom + 36.0, escape_markup(chart.x.label));
+                 0.5 * (kLeft + kRight), kBottom + 36.0, io::escape_markup(chart.x.label));
   fmt::format_to(out,
                  "<text class=\"gc-label\" transform=\"translate(16 {:.1f}) rotate(-90)\" "
                  "text-anchor=\"middle\">{}</text>\n",
-                 0.5 * (kTop + kBottom), escape_markup(chart.y.label));
+                 0.5 * (kTop + kBottom), io::escape_markup(chart.y.label));
 }
 
 void draw_guides(const Chart& chart, const Plane& plane, std::string& svg) {
@@ -135,7 +136,7 @@ void draw_legend(const Chart& chart, std::string& svg) {
   for (const ChartSeries& series : chart.series) {
     draw_mark(x, 38.0, series.style, 4.0, svg);
     fmt::format_to(std::back_inserter(svg), "<text class=\"gc-label\" x=\"{:.1f}\" y=\"42\">{}</text>\n",
-                   x + 10.0, escape_markup(series.name));
+                   x + 10.0, io::escape_markup(series.name));
     x += 34.0 + 6.6 * static_cast<double>(series.name.size());
   }
 }
@@ -146,12 +147,12 @@ void draw_rows(const Chart& chart, const Plane& plane, std::string& svg) {
   for (const ChartRow& row : chart.rows) {
     draw_mark(9.0, y - 4.0, row.style, 3.4, svg);
     fmt::format_to(out, "<text class=\"gc-tick\" x=\"18\" y=\"{:.1f}\">{}</text>", y,
-                   escape_markup(row.name));
+                   io::escape_markup(row.name));
     for (const ChartRow::Cell& cell : row.cells) {
       if (!plane.x.holds(cell.x)) continue;
       fmt::format_to(out,
                      "<text class=\"gc-cell\" x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{}</text>",
-                     plane.x.px(cell.x), y, escape_markup(cell.text));
+                     plane.x.px(cell.x), y, io::escape_markup(cell.text));
     }
     svg += "\n";
     y += kRowHeight;
@@ -164,9 +165,9 @@ std::string draw(const Chart& chart, const std::string& attributes, const std::s
   const double height = chart.rows.empty() ? kBottom + 46.0 : kRowsTop + rows - 6.0;
   std::string svg =
       fmt::format("<svg class=\"gc\" role=\"img\" viewBox=\"0 0 {:.0f} {:.0f}\"{}>\n{}<title>{}</title>\n",
-                  kWidth, height, attributes, first, escape_markup(chart.title));
+                  kWidth, height, attributes, first, io::escape_markup(chart.title));
   fmt::format_to(std::back_inserter(svg), "<text class=\"gc-title\" x=\"12\" y=\"19\">{}</text>\n",
-                 escape_markup(chart.title));
+                 io::escape_markup(chart.title));
   draw_axes(chart, plane, svg);
   draw_guides(chart, plane, svg);
   for (const ChartSeries& series : chart.series) draw_series(series, plane, svg);
@@ -176,29 +177,6 @@ std::string draw(const Chart& chart, const std::string& attributes, const std::s
 }
 
 }  // namespace
-
-std::string escape_markup(const std::string& text) {
-  std::string result;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(character) >= 0x20) result += character;
-    }
-  }
-  return result;
-}
 
 std::string chart_css() {
   return R"(.gc{font-family:system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}

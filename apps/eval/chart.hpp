@@ -59,7 +59,4 @@ std::string to_svg_element(const Chart& chart);
 /// The same as a file of its own.
 std::string to_svg_file(const Chart& chart);
 
-/// Text as XML and HTML hold it.
-std::string escape_markup(const std::string& text);
-
 }  // namespace geoloc::apps

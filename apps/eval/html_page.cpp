@@ -12,6 +12,7 @@
 #include "eval/report.hpp"
 #include "eval/run_charts.hpp"
 #include "eval/sweep_report.hpp"
+#include "geoloc/io/output/markup.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -202,7 +203,7 @@ std::string rendered_section(const std::vector<RenderedRun>& runs) {
          paragraph(fmt::format(
              "{}: each frame drawn by the simulator's camera and searched by the detector that comes "
              "with geoloc, beside the same run with detections drawn from the noise model.",
-             escape_markup(runs.front().from_model.flight))) +
+             io::escape_markup(runs.front().from_model.flight))) +
          to_html(table);
 }
 

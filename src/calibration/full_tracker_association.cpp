@@ -62,6 +62,11 @@ void FullTracker::add_pairings(int look_index) {
   }
 }
 
+/// Of the noise of two frames.
+double FullTracker::shared_share_of_noise(Duration pause) const {
+  return std::exp(-std::abs(seconds(pause)) / std::max(config_.fast_time_constant_s, 1e-3));
+}
+
 /// Frames within a second share most of their noise: it cancels between a look and a track that was seen just
 /// now, and a track seen for a short time only has it whole.
 Pairing FullTracker::pairing(int look_index, int track_index) const {
@@ -69,8 +74,7 @@ Pairing FullTracker::pairing(int look_index, int track_index) const {
   const Track& track = tracks_[static_cast<std::size_t>(track_index)];
   const Estimate& estimate = estimates_[static_cast<std::size_t>(track_index)];
   const double share = noise_share(track);
-  const double pause_s = seconds(now_ - estimate.last_look);
-  const double fresh = 1.0 - share * std::exp(-pause_s / std::max(config_.fast_time_constant_s, 1e-3));
+  const double fresh = 1.0 - share * shared_share_of_noise(now_ - estimate.last_look);
 
   Pairing pairing;
   pairing.look = look_index;

@@ -192,8 +192,7 @@ void FullTracker::remove_improbable() {
 /// frame as often as frames repeat it, which is too much for tracks that the same frames made.
 Eigen::Matrix2d FullTracker::covariance_of_difference(std::size_t a, std::size_t b) const {
   const Estimate &first = estimates_[a], &second = estimates_[b];
-  const double pause_s = std::abs(seconds(first.last_look - second.last_look));
-  const double fresh = 1.0 - std::exp(-pause_s / std::max(config_.fast_time_constant_s, 1e-3));
+  const double fresh = 1.0 - shared_share_of_noise(first.last_look - second.last_look);
   const double shares = noise_share(tracks_[a]) + noise_share(tracks_[b]);
   return solver_.covariance_of_difference(landmarks_[first.landmark], landmarks_[second.landmark], drift_) -
          first.own_covariance - second.own_covariance + first.pixel_information.inverse() +

@@ -102,6 +102,7 @@ class FullTracker {
   bool may_be_one(std::size_t a, std::size_t b) const;
   Eigen::Matrix2d covariance_of_difference(std::size_t a, std::size_t b) const;
   double noise_share(const Track& track) const;
+  double shared_share_of_noise(Duration pause) const;
   void merge(std::size_t a, std::size_t b);
   void absorb(std::size_t track, const Look& look);
   void refresh(std::size_t track);

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "geoloc/io/output/markup.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -26,30 +28,6 @@ constexpr const char* kStyle = R"(<style>
  .ellipse{fill:#16a34a;fill-opacity:.10;stroke:#16a34a;stroke-opacity:.55}.id{font-size:10px;fill:#14532d}
 </style>
 )";
-
-/// Only what XML 1.0 can hold: markup is escaped, control characters are left out.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char character : text) {
-    switch (character) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        if (static_cast<unsigned char>(character) >= 0x20) result += character;
-    }
-  }
-  return result;
-}
 
 /// East, north to pixels of the picture: same scale both ways, north up.
 class Map {
@@ -156,8 +134,8 @@ void draw_object(const Map& map, const ObjectReport& object, std::string& svg) {
                  map.length(kEllipseSigmas * object.ellipse.sigma_major_m), object.ellipse.azimuth_deg);
   fmt::format_to(
       out, "<circle class=\"object\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.4\"><title>{}</title></circle>", x, y,
-      escaped(fmt::format("object {} · {} · {:.7f}, {:.7f} · {} looks", object.id, object.class_name,
-                          object.position.latitude_deg, object.position.longitude_deg, object.hits)));
+      escape_markup(fmt::format("object {} · {} · {:.7f}, {:.7f} · {} looks", object.id, object.class_name,
+                                object.position.latitude_deg, object.position.longitude_deg, object.hits)));
   fmt::format_to(out, "<text class=\"id\" x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x + 6.0, y - 5.0,
                  object.id);
 }
@@ -198,9 +176,9 @@ std::string to_svg(const RunPicture& picture) {
   svg += kStyle;
   svg += "<rect width=\"100%\" height=\"100%\" fill=\"#f8fafc\"/>\n";
   fmt::format_to(std::back_inserter(svg), "<text class=\"title\" x=\"{0:.0f}\" y=\"32\">{1}</text>\n",
-                 kMargin_px, escaped(picture.title));
+                 kMargin_px, escape_markup(picture.title));
   fmt::format_to(std::back_inserter(svg), "<text class=\"subtitle\" x=\"{0:.0f}\" y=\"54\">{1}</text>\n",
-                 kMargin_px, escaped(picture.subtitle));
+                 kMargin_px, escape_markup(picture.subtitle));
   draw_grid(map, svg);
   draw_trajectory(map, picture.trajectory, svg);
   draw_raw_fixes(map, picture.raw_fixes, svg);
