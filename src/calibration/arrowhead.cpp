@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/calibration/arrowhead.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
@@ -11,27 +11,40 @@
 namespace geoloc {
 namespace {
 
-constexpr Eigen::Index kCalibration = CalibrationIndex::kSize;
+constexpr int kCalibration = CalibrationIndex::kSize;
 /// Stands for "exactly known": keeps the information finite.
 constexpr double kLeastSigma = 1e-9;
 
+// The head in order: the nodes from the oldest on, then the calibration. What objects tie together lies near
+// the diagonal then, but for the calibration's rows, which come last and fill nothing.
 Eigen::Index place_of(std::uint32_t node, const DriftTimeline& drift) {
-  return kCalibration + kNodeSize * static_cast<Eigen::Index>(node - drift.begin());
+  return kNodeSize * static_cast<Eigen::Index>(node - drift.begin());
+}
+
+Eigen::Index place_of_calibration(const DriftTimeline& drift) {
+  return place_of(drift.end(), drift);
+}
+
+/// Of the oldest node that the object was seen at.
+Eigen::Index first_place(const Landmark& landmark, const DriftTimeline& drift) {
+  return landmark.begin() == landmark.end() ? place_of_calibration(drift)
+                                            : place_of(landmark.begin()->number, drift);
+}
+
+Eigen::Index size_of_head(int nodes) {
+  return kNodeSize * static_cast<Eigen::Index>(nodes) + kCalibration;
 }
 
 }  // namespace
 
-ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, int max_nodes) {
+ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, int max_nodes)
+    : information_(size_of_head(max_nodes + 2)),
+      right_hand_side_(size_of_head(max_nodes + 2)),
+      gains_(size_of_head(max_nodes + 2), 2) {
   prior_mean_ << prior.boresight_x_deg * kRadPerDeg, prior.boresight_y_deg * kRadPerDeg,
       prior.boresight_z_deg * kRadPerDeg, prior.latency_s, prior.height_m, 0.0, 0.0;
   prior_sigma_ << prior.sigma_boresight_x_deg * kRadPerDeg, prior.sigma_boresight_y_deg * kRadPerDeg,
       prior.sigma_boresight_z_deg * kRadPerDeg, prior.sigma_latency_s, prior.sigma_height_m, 0.0, 0.0;
-  const Eigen::Index most = kCalibration + kNodeSize * static_cast<Eigen::Index>(max_nodes + 2);
-  information_.resize(most, most);
-  right_hand_side_.resize(most);
-  columns_.resize(most, kCalibration + kNodeSize);
-  gains_.resize(most, 2);
-  inverse_.resize(most, most);
 }
 
 CalibrationVector ArrowheadSolver::prior_sigma(double sigma_offset_m) const {
@@ -42,8 +55,9 @@ CalibrationVector ArrowheadSolver::prior_sigma(double sigma_offset_m) const {
 
 void ArrowheadSolver::add_prior(double sigma_offset_m, const DriftTimeline& drift) {
   const CalibrationVector information = prior_sigma(sigma_offset_m).array().square().inverse();
-  information_.topLeftCorner<kCalibration, kCalibration>().diagonal() += information;
-  right_hand_side_.head<kCalibration>() += information.cwiseProduct(prior_mean_);
+  const Eigen::Index last = place_of_calibration(drift);
+  information_.block<kCalibration, kCalibration>(last, last).diagonal() += information;
+  right_hand_side_.segment<kCalibration>(last) += information.cwiseProduct(prior_mean_);
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number) {
     const DriftNode& node = drift.node(number);
     const NodeVector information_of_node = drift.information(number);
@@ -62,107 +76,103 @@ void ArrowheadSolver::add_prior(double sigma_offset_m, const DriftTimeline& drif
 /// Adds C - B' A^-1 B to the lower triangle and g + B' A^-1 b to the right-hand side.
 void ArrowheadSolver::add_landmark(const Landmark& landmark, const DriftTimeline& drift) {
   const Eigen::Matrix2d A_inverse = landmark.A().inverse();
-  const Landmark::CalibrationRow gain = A_inverse * landmark.B();
   const Eigen::Vector2d mean = A_inverse * landmark.b();
-  information_.topLeftCorner<kCalibration, kCalibration>() += landmark.C() - landmark.B().transpose() * gain;
-  right_hand_side_.head<kCalibration>() += landmark.g() + landmark.B().transpose() * mean;
+  const Eigen::Index last = place_of_calibration(drift);
+  const auto& B = landmark.B();
+  information_.block<kCalibration, kCalibration>(last, last) +=
+      landmark.C() - B.transpose() * (A_inverse * B);
+  right_hand_side_.segment<kCalibration>(last) += landmark.g() + B.transpose() * mean;
+
+  std::array<Eigen::Matrix<double, 2, kNodeSize>, Landmark::kMaxNodes> gains;  // A^-1 B, of the nodes
+  std::size_t count = 0;
   for (const Landmark::NodeTerms& own : landmark) {
     const Eigen::Index here = place_of(own.number, drift);
-    const Eigen::Matrix<double, 2, kNodeSize> own_gain = A_inverse * own.B;
+    const auto& gain = gains[count++] = A_inverse * own.B;
     right_hand_side_.segment<kNodeSize>(here) += own.g + own.B.transpose() * mean;
-    information_.block<kNodeSize, kCalibration>(here, 0) +=
-        own.C_calibration.transpose() - own.B.transpose() * gain;
-    information_.block<kNodeSize, kNodeSize>(here, here) += own.C_own - own.B.transpose() * own_gain;
-    for (const Landmark::NodeTerms* earlier = landmark.begin(); earlier != &own; ++earlier) {
+    information_.block<kCalibration, kNodeSize>(last, here) += own.C_calibration - B.transpose() * gain;
+    information_.block<kNodeSize, kNodeSize>(here, here) += own.C_own - own.B.transpose() * gain;
+    const Landmark::NodeTerms* earlier = landmark.begin();
+    for (std::size_t i = 0; earlier != &own; ++i, ++earlier) {
       auto block = information_.block<kNodeSize, kNodeSize>(here, place_of(earlier->number, drift));
-      block -= own.B.transpose() * (A_inverse * earlier->B);
+      block -= own.B.transpose() * gains[i];
       if (earlier->number + 1 == own.number) block += earlier->C_next.transpose();
     }
   }
 }
 
-void ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks, double sigma_offset_m,
+bool ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks, double sigma_offset_m,
                             DriftTimeline& drift, Calibration& calibration) {
-  size_ = place_of(drift.end(), drift);
-  information_.topLeftCorner(size_, size_).setZero();
-  right_hand_side_.head(size_).setZero();
+  const Eigen::Index size = size_of_head(drift.size());
+  information_.reset(size);
+  right_hand_side_.head(size).setZero();
   add_prior(sigma_offset_m, drift);
   for (const Landmark* landmark : landmarks) add_landmark(*landmark, drift);
+  if (!information_.factorize()) return false;
 
-  // In place: the lower triangle becomes the factor L of S = L L'.
-  Eigen::Ref<Eigen::MatrixXd> information = information_.topLeftCorner(size_, size_);
-  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(information);
-  auto solution = right_hand_side_.head(size_);
-  factor.solveInPlace(solution);
-  calibration.mean = solution.head<kCalibration>();
+  auto solution = right_hand_side_.head(size);
+  information_.solve(solution);
+  calibration.mean = solution.tail<kCalibration>();
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number) {
     drift.node(number).mean = solution.segment<kNodeSize>(place_of(number, drift));
   }
-
-  // Covariance of calibration and newest node: columns of L^-1 suffice.
-  auto columns = columns_.topRows(size_);
-  columns.setZero();
-  columns.topLeftCorner<kCalibration, kCalibration>().setIdentity();
-  columns.bottomRightCorner<kNodeSize, kNodeSize>().setIdentity();
-  information.triangularView<Eigen::Lower>().solveInPlace(columns);
-  calibration.covariance.noalias() =
-      columns.leftCols<kCalibration>().transpose() * columns.leftCols<kCalibration>();
-  newest_node_covariance_.noalias() =
-      columns.rightCols<kNodeSize>().transpose() * columns.rightCols<kNodeSize>();
+  const auto covariance = information_.last_of_inverse<kNodeSize + kCalibration>();
+  calibration.covariance = covariance.bottomRightCorner<kCalibration, kCalibration>();
+  newest_node_covariance_ = covariance.topLeftCorner<kNodeSize, kNodeSize>();
+  return true;
 }
 
 std::optional<double> ArrowheadSolver::observed_wandering(const DriftTimeline& drift) {
   constexpr int kEnoughNodes = 8;
   if (drift.size() < kEnoughNodes) return std::nullopt;
-  // Covariance of all nodes from the inverse of the factor.
-  auto inverse = inverse_.topLeftCorner(size_, size_);
-  inverse.setIdentity();
-  information_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solveInPlace(inverse);
   double sum = 0.0;
   int count = 0;
+  auto steps = gains_.topRows(information_.size());
   for (std::uint32_t number = drift.begin() + 1; number != drift.end(); ++number) {
     const DriftNode& node = drift.node(number);
-    const NodeVector unit_information = node.information;
-    const Eigen::Index here = place_of(number, drift);
-    for (int axis = 0; axis < 2; ++axis) {
-      const double transition = node.transition[axis];
-      const double step = node.mean[axis] - transition * drift.node(number - 1).mean[axis];
-      const double variance =
-          (inverse.col(here + axis) - transition * inverse.col(here - kNodeSize + axis)).squaredNorm();
-      sum += (step * step + variance) * unit_information[axis];
-      ++count;
-    }
+    const Eigen::Index here = place_of(number, drift), before = here - kNodeSize;
+    const Eigen::Array2d transition = node.transition.head<2>();
+    const Eigen::Array2d step =
+        node.mean.head<2>().array() - transition * drift.node(number - 1).mean.head<2>().array();
+    steps.setZero();
+    steps.middleRows<2>(here).setIdentity();
+    steps.middleRows<2>(before).diagonal() = -transition;
+    information_.solve_lower(steps, before);
+    const Eigen::Array2d variance = steps.colwise().squaredNorm().transpose();
+    sum += ((step.square() + variance) * node.information.head<2>().array()).sum();
+    count += 2;
   }
   return std::sqrt(sum / count);
 }
 
 void ArrowheadSolver::add_gain(const Landmark& landmark, const DriftTimeline& drift, double sign) const {
   const Eigen::Matrix2d A_inverse = sign * landmark.A().inverse();
-  gains_.topRows<kCalibration>() += landmark.B().transpose() * A_inverse;
+  gains_.middleRows<kCalibration>(place_of_calibration(drift)) += landmark.B().transpose() * A_inverse;
   for (const Landmark::NodeTerms& terms : landmark) {
     gains_.middleRows<kNodeSize>(place_of(terms.number, drift)) += terms.B.transpose() * A_inverse;
   }
 }
 
-/// G S^-1 G' of the gains gathered.
-Eigen::Matrix2d ArrowheadSolver::head_covariance() const {
-  auto gains = gains_.topRows(size_);
-  information_.topLeftCorner(size_, size_).triangularView<Eigen::Lower>().solveInPlace(gains);
-  return gains.transpose() * gains;
+/// G S^-1 G' of the gains gathered, which are zero before `first`.
+Eigen::Matrix2d ArrowheadSolver::head_covariance(Eigen::Index first) const {
+  auto gains = gains_.topRows(information_.size());
+  information_.solve_lower(gains, first);
+  const auto used = gains.bottomRows(information_.size() - first);
+  return used.transpose().lazyProduct(used);
 }
 
 Eigen::Matrix2d ArrowheadSolver::covariance(const Landmark& landmark, const DriftTimeline& drift) const {
-  gains_.topRows(size_).setZero();
+  gains_.topRows(information_.size()).setZero();
   add_gain(landmark, drift, 1.0);
-  return landmark.A().inverse() + head_covariance();
+  return landmark.A().inverse() + head_covariance(first_place(landmark, drift));
 }
 
 Eigen::Matrix2d ArrowheadSolver::covariance_of_difference(const Landmark& a, const Landmark& b,
                                                           const DriftTimeline& drift) const {
-  gains_.topRows(size_).setZero();
+  gains_.topRows(information_.size()).setZero();
   add_gain(a, drift, 1.0);
   add_gain(b, drift, -1.0);
-  return a.A().inverse() + b.A().inverse() + head_covariance();
+  return a.A().inverse() + b.A().inverse() +
+         head_covariance(std::min(first_place(a, drift), first_place(b, drift)));
 }
 
 }  // namespace geoloc

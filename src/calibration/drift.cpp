@@ -21,8 +21,11 @@ std::vector<std::string> DriftConfig::problems() const {
   return found.take();
 }
 
-DriftTimeline::DriftTimeline(const DriftConfig& config)
-    : config_(config), nodes_(static_cast<std::size_t>(config.max_nodes) + 2) {}
+DriftTimeline::DriftTimeline(const DriftConfig& config) : config_(config) {
+  std::size_t length = 1;
+  while (length < static_cast<std::size_t>(config.max_nodes) + 2) length *= 2;
+  nodes_.resize(length);
+}
 
 NodeSpan DriftTimeline::cover(VehicleTime time, double sigma_position_m) {
   const Duration spacing = from_seconds(config_.node_spacing_s);
@@ -54,7 +57,7 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
     next.mean = next.transition.cwiseProduct(node(end_ - 1).mean);
   }
   next.information = (variance.array() * (1.0 - next.transition.array().square())).inverse();
-  nodes_[end_ % nodes_.size()] = next;
+  nodes_[place(end_)] = next;
   ++end_;
 }
 

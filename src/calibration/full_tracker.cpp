@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/calibration/full_tracker.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -17,9 +18,9 @@ using Index = CalibrationIndex;
 
 /// Frames at the start of a flight after each of which the head is solved: it learns most then.
 constexpr int kEagerFrames = 100;
-/// The wandering is learnt now and then: it costs as much as a solution. Often at first, until it has
-/// settled.
-constexpr int kSolutionsToSettle = 200, kSolutionsPerLesson = 2, kSolutionsPerLessonLater = 10;
+/// The wandering is learnt with each solution until it has settled, then now and then: it costs as much as a
+/// solution.
+constexpr int kSolutionsToSettle = 150, kSolutionsPerLessonLater = 5;
 /// Bounds of what the reported accuracy is believed to be wrong by.
 constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
 /// What the assumed detection probability counts for against observed ones.
@@ -50,13 +51,15 @@ FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint
   free_landmarks_.reserve(tracks);
   all_landmarks_.reserve(tracks);
   known_candidates_.reserve(tracks);
-  is_seen_.reserve(tracks);
+  look_of_track_.reserve(tracks);
+  reach_of_track_.reserve(tracks);
   is_in_doubt_.reserve(tracks);
   detection_probability_of_track_.reserve(tracks);
   looks_.reserve(looks);
   median_scratch_.reserve(looks);
   calibration_.mean = solver_.prior_mean();
   calibration_.covariance = solver_.prior_sigma(sigma_offset_m()).array().square().matrix().asDiagonal();
+  find_roots();
 }
 
 /// Of the wandering, an axis; the reported accuracy is radial.
@@ -145,27 +148,30 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
     look.observation.information = (pixel_noise + time_noise + noise_correlation_ * frame_noise).inverse();
     look.position = located.fix.position_in_enu + calibration_.offset_m() + jacobians.node * drift_now_;
     look.pixel_noise = pixel_noise;
-    look.jacobian << jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node,
-        Eigen::Matrix2d::Identity(), ground_velocity;
-    look.spread = spread(look.jacobian);
+    look.jacobian = whitened(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
+    look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * ground_velocity;
     look.clutter_density =
         config_.clutter_per_frame / (ground_per_pixel_m2 * camera.width_px * camera.height_px);
+    look.ground_per_pixel_m = std::sqrt(ground_per_pixel_m2);
     look.size_m =
-        std::sqrt(ground_per_pixel_m2) * std::min(located.detection.box.width, located.detection.box.height);
+        look.ground_per_pixel_m * std::min(located.detection.box.width, located.detection.box.height);
     look.detection = &located.detection;
     if (is_duplicate(look)) continue;
     looks_.push_back(look);
     frame_noise_ += frame_noise;
   }
-  if (!looks_.empty()) frame_noise_ /= static_cast<double>(looks_.size());
+  if (looks_.empty()) return;
+  frame_noise_ /= static_cast<double>(looks_.size());
+  const Eigen::Matrix2d frame_root = frame_noise_.llt().matrixL();
+  for (Look& look : looks_) look.jacobian.middleCols<2>(SharedError::kFrame) = frame_root;
 }
 
 /// A detector that fires twice on one object: the more confident box came first.
 bool FullTracker::is_duplicate(const Look& look) const {
   return std::any_of(looks_.begin(), looks_.end(), [&](const Look& kept) {
     return kept.detection->class_id == look.detection->class_id &&
-           (kept.position - look.position).norm() <
-               config_.duplicate_share * std::min(kept.size_m, look.size_m);
+           (kept.position - look.position).squaredNorm() <
+               std::pow(config_.duplicate_share * std::min(kept.size_m, look.size_m), 2);
   });
 }
 
@@ -174,20 +180,20 @@ void FullTracker::solve_if_due(VehicleTime now) {
                       seconds(now - *solved_at_) >= config_.solve_period_s;
   if (!is_due) return;
   solved_at_ = now;
-  solve();
+  if (!solve()) return;
   learn_wandering();
   merge_compatible();
   state_covariances();
-  if (!match_known_points()) return;
-  solve();
-  state_covariances();
+  if (match_known_points() && solve()) state_covariances();
 }
 
-void FullTracker::solve() {
+bool FullTracker::solve() {
   all_landmarks_.clear();
   for (const Estimate& estimate : estimates_) all_landmarks_.push_back(&landmarks_[estimate.landmark]);
-  solver_.solve(all_landmarks_, sigma_offset_m(), drift_, calibration_);
+  if (!solver_.solve(all_landmarks_, sigma_offset_m(), drift_, calibration_)) return false;
+  find_roots();
   for (std::size_t k = 0; k < tracks_.size(); ++k) refresh(k);
+  return true;
 }
 
 void FullTracker::state_covariances() {
@@ -240,7 +246,7 @@ bool FullTracker::match_known_points() {
 }
 
 void FullTracker::learn_wandering() {
-  const int pause = solutions_ < kSolutionsToSettle ? kSolutionsPerLesson : kSolutionsPerLessonLater;
+  const int pause = solutions_ < kSolutionsToSettle ? 1 : kSolutionsPerLessonLater;
   if (++solutions_ % pause != 0) return;
   const auto wandering = solver_.observed_wandering(drift_);
   if (wandering) drift_.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));

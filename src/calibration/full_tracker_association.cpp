@@ -10,6 +10,8 @@
 namespace geoloc {
 namespace {
 
+constexpr double kTiny = 1e-18;  // a variance for components that are exactly known
+
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -18,47 +20,50 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-/// What the looks of this frame may be off by together.
-SharedError::Matrix FullTracker::shared_prior() const {
-  SharedError::Matrix prior = SharedError::Matrix::Zero();
-  prior.block<SharedError::kCalibrationSize, SharedError::kCalibrationSize>(SharedError::kCalibration,
-                                                                            SharedError::kCalibration) =
-      calibration_.covariance.topLeftCorner<SharedError::kCalibrationSize, SharedError::kCalibrationSize>();
-  prior.block<kNodeSize, kNodeSize>(SharedError::kDrift, SharedError::kDrift) =
-      solver_.newest_node_covariance();
-  prior.block<2, 2>(SharedError::kFrame, SharedError::kFrame) = frame_noise_;
-  prior(SharedError::kTime, SharedError::kTime) = std::pow(config_.sigma_time_s, 2);
-  return prior;
+/// After each solution.
+void FullTracker::find_roots() {
+  const auto root = [](auto covariance) {
+    covariance.diagonal().array() += kTiny;
+    return decltype(covariance)(covariance.llt().matrixL());
+  };
+  calibration_root_ = root(SharedError::CalibrationMatrix(
+      calibration_.covariance.topLeftCorner<SharedError::kCalibrationSize, SharedError::kCalibrationSize>()));
+  drift_root_ = root(solver_.newest_node_covariance());
 }
 
-double FullTracker::spread(const SharedError::Row& jacobian) const {
-  const auto calibration = jacobian.middleCols<SharedError::kCalibrationSize>(SharedError::kCalibration);
-  const auto drift = jacobian.middleCols<kNodeSize>(SharedError::kDrift);
-  return (calibration *
-          calibration_.covariance
-              .topLeftCorner<SharedError::kCalibrationSize, SharedError::kCalibrationSize>() *
-          calibration.transpose())
-             .trace() +
-         (drift * solver_.newest_node_covariance() * drift.transpose()).trace();
+/// With C = R R', J C J' is the square of J R: cheap for every pair of look and track.
+SharedError::Row FullTracker::whitened(const SharedError::CalibrationRow& by_calibration,
+                                       const Eigen::Matrix<double, 2, kNodeSize>& by_drift) const {
+  SharedError::Row row = SharedError::Row::Zero();
+  row.middleCols<SharedError::kCalibrationSize>(SharedError::kCalibration) =
+      by_calibration * calibration_root_;
+  row.middleCols<kNodeSize>(SharedError::kDrift) = by_drift * drift_root_;
+  return row;
 }
 
-/// With P = R R', (a - b) P (a - b)' is the square of aR - bR: cheap for every pair of look and track.
-void FullTracker::whiten(const SharedError::Matrix& root) {
-  for (Look& look : looks_) look.whitened_jacobian = look.jacobian.lazyProduct(root);
-  for (Estimate& estimate : estimates_) estimate.whitened_gain = estimate.gain.lazyProduct(root);
-}
-
-/// All tracks that the look may show; those that are farther than the trace of the covariance allows are not
+/// All tracks that a look may show; those that are farther than the trace of the covariance allows are not
 /// looked at closely.
-void FullTracker::add_pairings(int look_index) {
-  const Look& look = looks_[static_cast<std::size_t>(look_index)];
-  const double look_bound = look.pixel_noise.trace();
+void FullTracker::add_pairings() {
+  if (looks_.empty()) return;
+  SharedError::Row mean = SharedError::Row::Zero();
+  for (const Look& look : looks_) mean += look.jacobian;
+  mean /= static_cast<double>(looks_.size());
+  const double frame_variance = frame_noise_.trace();
+  reach_of_track_.clear();
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    const Estimate& estimate = estimates_[k];
-    const double distance_squared = (look.position - tracks_[k].position_in_enu.mean).squaredNorm();
-    const double bound = look_bound + estimate.own_covariance.trace() + frame_noise_.trace() +
-                         (look.whitened_jacobian - estimate.whitened_gain).squaredNorm();
-    if (distance_squared < config_.gate * bound) association_.add(pairing(look_index, static_cast<int>(k)));
+    reach_of_track_.push_back({tracks_[k].position_in_enu.mean,
+                               estimates_[k].own_covariance.trace() + frame_variance,
+                               (estimates_[k].gain - mean).norm()});
+  }
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    const Reach look{looks_[i].position, looks_[i].pixel_noise.trace(), (looks_[i].jacobian - mean).norm()};
+    for (std::size_t k = 0; k < tracks_.size(); ++k) {
+      const Reach& track = reach_of_track_[k];
+      const double shared_m = look.shared_m + track.shared_m;
+      const double variance = look.own_variance + track.own_variance + shared_m * shared_m;
+      if ((look.position - track.position).squaredNorm() < config_.gate * variance)
+        association_.add(pairing(i, k));
+    }
   }
 }
 
@@ -69,16 +74,16 @@ double FullTracker::shared_share_of_noise(Duration pause) const {
 
 /// Frames within a second share most of their noise: it cancels between a look and a track that was seen just
 /// now, and a track seen for a short time only has it whole.
-Pairing FullTracker::pairing(int look_index, int track_index) const {
-  const Look& look = looks_[static_cast<std::size_t>(look_index)];
-  const Track& track = tracks_[static_cast<std::size_t>(track_index)];
-  const Estimate& estimate = estimates_[static_cast<std::size_t>(track_index)];
+Pairing FullTracker::pairing(std::size_t look_index, std::size_t track_index) const {
+  const Look& look = looks_[look_index];
+  const Track& track = tracks_[track_index];
+  const Estimate& estimate = estimates_[track_index];
   const double share = noise_share(track);
   const double fresh = 1.0 - share * shared_share_of_noise(now_ - estimate.last_look);
 
   Pairing pairing;
-  pairing.look = look_index;
-  pairing.track = track_index;
+  pairing.look = static_cast<int>(look_index);
+  pairing.track = static_cast<int>(track_index);
   pairing.residual = look.position - track.position_in_enu.mean;
   pairing.jacobian = look.jacobian - estimate.gain;
   pairing.jacobian.middleCols<2>(SharedError::kFrame) *= std::sqrt(fresh);
@@ -105,17 +110,14 @@ Eigen::Vector2d FullTracker::common_shift() {
 }
 
 void FullTracker::associate() {
-  const SharedError::Matrix prior = shared_prior();
-  constexpr double kTiny = 1e-18;  // for components that are exactly known
-  whiten((prior + kTiny * SharedError::Matrix::Identity()).llt().matrixL());
-  association_.begin(looks_.size(), prior, config_.gate, config_.ambiguity);
-  for (std::size_t i = 0; i < looks_.size(); ++i) add_pairings(static_cast<int>(i));
+  association_.begin(looks_.size(), config_.gate, config_.ambiguity);
+  add_pairings();
   matches_ = &association_.solve();
   shift_ = common_shift();
-  is_seen_.assign(tracks_.size(), false);
+  look_of_track_.assign(tracks_.size(), JointAssociation::kNone);
   is_in_doubt_.assign(tracks_.size(), false);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (is_matched(i)) is_seen_[static_cast<std::size_t>((*matches_)[i].track)] = true;
+    if (is_matched(i)) look_of_track_[static_cast<std::size_t>((*matches_)[i].track)] = static_cast<int>(i);
   }
   for (const Pairing& pairing : association_.pairings()) {
     if ((*matches_)[static_cast<std::size_t>(pairing.look)].is_ambiguous)

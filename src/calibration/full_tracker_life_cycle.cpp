@@ -27,11 +27,11 @@ double counted_probability(double hits, double opportunities) {
 void FullTracker::note_same_frame_evidence() {
   const double reach_m = 2.0 * config_.merge_radius_m;
   for (std::size_t seen = 0; seen < tracks_.size(); ++seen) {
-    if (!is_seen_[seen]) continue;
+    if (!is_seen(seen)) continue;
     for (std::size_t other = 0; other < tracks_.size(); ++other) {
       const Eigen::Vector2d apart = tracks_[other].position_in_enu.mean - tracks_[seen].position_in_enu.mean;
       if (other == seen || apart.squaredNorm() > reach_m * reach_m) continue;
-      if (is_seen_[other]) {
+      if (is_seen(other)) {
         estimates_[seen].neighbours.seen_apart(tracks_[other].id);
       } else if (detection_probability_of_track_[other] > 0.0) {
         estimates_[seen].neighbours.seen_as_one(tracks_[other].id);
@@ -46,18 +46,28 @@ Eigen::Vector2d FullTracker::shown_in_frame(const Eigen::Vector2d& position_in_e
   return position_in_enu - calibration_.offset_m() - drift_now_.head<2>() + shift_;
 }
 
+/// At a track's place; its look's, where it has one, is as good and known already.
+std::optional<double> FullTracker::ground_per_pixel(std::size_t track, const Eigen::Vector2d& pixel,
+                                                    const Projector& projector, const FrameView& view) const {
+  if (is_seen(track)) return looks_[static_cast<std::size_t>(look_of_track_[track])].ground_per_pixel_m;
+  const auto fix = projector.project(pixel, view.enu_from_camera);
+  if (!fix) return std::nullopt;
+  return std::sqrt(std::abs(fix->ground_from_pixel.determinant()));
+}
+
 /// Zero outside the image, at its edge and for objects too small; otherwise what was counted so far.
 double FullTracker::detection_probability(std::size_t track, const Projector& projector,
                                           const FrameView& view) const {
   const Eigen::Vector2d shown = shown_in_frame(tracks_[track].position_in_enu.mean);
   const auto pixel = projector.reproject(shown, view.enu_from_camera);
   if (!pixel) return 0.0;
-  const auto fix = projector.project(*pixel, view.enu_from_camera);
-  if (!fix) return 0.0;
-  const double pixel_per_m = 1.0 / std::sqrt(std::abs(fix->ground_from_pixel.determinant()));
+  const auto ground_per_pixel_m = ground_per_pixel(track, *pixel, projector, view);
+  if (!ground_per_pixel_m) return 0.0;
+  const double pixel_per_m = 1.0 / *ground_per_pixel_m;
   const double size_px = estimates_[track].size_m * pixel_per_m;
   const double sigma_px =
-      std::sqrt(estimates_[track].own_covariance.trace() + estimates_[track].gain_spread) * pixel_per_m;
+      std::sqrt(estimates_[track].own_covariance.trace() + estimates_[track].gain.squaredNorm()) *
+      pixel_per_m;
   const double margin_px = 0.6 * size_px + 2.0 * std::min(sigma_px, size_px) + 2.0 * config_.sigma_px;
   if (!projector.camera().contains(*pixel, margin_px)) return 0.0;
   const double seen_well = std::clamp(size_px / std::max(config_.smallest_object_px, 1e-9) - 1.0, 0.0, 1.0);
@@ -68,18 +78,18 @@ void FullTracker::weigh_missed(const Projector& projector, const FrameView& view
   detection_probability_of_track_.assign(tracks_.size(), 0.0);
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     if (is_in_doubt_[k]) continue;
-    const bool is_seen = is_seen_[k];
-    if (is_seen && tracks_[k].status != TrackStatus::kConfirmed) continue;
+    const bool is_seen_now = is_seen(k);
+    if (is_seen_now && tracks_[k].status != TrackStatus::kConfirmed) continue;
     const double probability = detection_probability(k, projector, view);
     if (probability <= 0.0) continue;
     detection_probability_of_track_[k] = probability;
-    if (!is_seen) {
+    if (!is_seen_now) {
       estimates_[k].existence.miss(probability);
       ++tracks_[k].penalty;
     }
     if (tracks_[k].status == TrackStatus::kConfirmed) {
       opportunities_ += 1.0;
-      expected_hits_ += is_seen ? 1.0 : 0.0;
+      expected_hits_ += is_seen_now ? 1.0 : 0.0;
     }
   }
   if (opportunities_ > kMostOpportunities) {
@@ -115,10 +125,8 @@ void FullTracker::refresh(std::size_t k) {
   Estimate& estimate = estimates_[k];
   const Landmark& landmark = landmarks_[estimate.landmark];
   estimate.own_covariance = landmark.A().inverse();
-  estimate.gain.leftCols<SharedError::kCalibrationSize>() =
-      estimate.own_covariance * landmark.B().leftCols<SharedError::kCalibrationSize>();
-  estimate.gain.middleCols<kNodeSize>(SharedError::kDrift) = estimate.own_covariance * recent_drift(landmark);
-  estimate.gain_spread = spread(estimate.gain);
+  estimate.gain = whitened(estimate.own_covariance * landmark.B().leftCols<SharedError::kCalibrationSize>(),
+                           estimate.own_covariance * recent_drift(landmark));
   tracks_[k].position_in_enu.mean = landmark.position(calibration_.mean, drift_);
 }
 
@@ -163,11 +171,11 @@ void FullTracker::start_tentative(HostTime captured_at) {
     track.first_seen = track.last_seen = captured_at;
     tracks_.push_back(track);
     estimates_.push_back(estimate);
-    is_seen_.push_back(true);
+    look_of_track_.push_back(static_cast<int>(i));
     detection_probability_of_track_.push_back(0.0);
     absorb(tracks_.size() - 1, looks_[i]);
     tracks_.back().position_in_enu.covariance =
-        looks_[i].pixel_noise + frame_noise_ + looks_[i].spread * Eigen::Matrix2d::Identity();
+        looks_[i].pixel_noise + looks_[i].jacobian * looks_[i].jacobian.transpose();
     ++counters_.created;
   }
 }

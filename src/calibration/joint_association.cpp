@@ -22,10 +22,16 @@ constexpr int kRounds = 2;
 /// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.
 constexpr std::size_t kPairingsPerLook = 16;
 
-/// J P J'. lazyProduct: Eigen takes matrices of this size for large ones, and packs them first.
-Eigen::Matrix2d projected(const SharedError::Row& jacobian, const SharedError::Matrix& covariance) {
-  const SharedError::Row product = jacobian.lazyProduct(covariance);
-  return product.lazyProduct(jacobian.transpose());
+/// Of a pair's residual, where the shared error has that covariance. lazyProduct: Eigen takes matrices of
+/// this size for large ones, and packs them first.
+Eigen::Matrix2d residual_covariance(const Pairing& pairing, const SharedError::Matrix& covariance) {
+  const SharedError::Row product = pairing.jacobian.lazyProduct(covariance);
+  return pairing.own_covariance + product.lazyProduct(pairing.jacobian.transpose());
+}
+
+/// The same before anything is known of the shared error.
+Eigen::Matrix2d prior_covariance(const Pairing& pairing) {
+  return pairing.own_covariance + pairing.jacobian.lazyProduct(pairing.jacobian.transpose());
 }
 
 }  // namespace
@@ -47,11 +53,9 @@ JointAssociation::JointAssociation(int max_looks, int max_tracks) {
   matches_.reserve(looks);
 }
 
-void JointAssociation::begin(std::size_t looks, const SharedError::Matrix& prior, double gate,
-                             double ambiguity) {
+void JointAssociation::begin(std::size_t looks, double gate, double ambiguity) {
   gate_ = gate;
   ambiguity_ = ambiguity;
-  prior_ = prior;
   pairings_.clear();
   pairings_of_look_.assign(looks, 0);
   least_cost_of_look_.assign(looks, gate);
@@ -63,8 +67,7 @@ void JointAssociation::begin(std::size_t looks, const SharedError::Matrix& prior
 
 void JointAssociation::add(const Pairing& pairing) {
   if (pairings_.size() == pairings_.capacity()) return;
-  const Eigen::Matrix2d covariance = pairing.own_covariance + projected(pairing.jacobian, prior_);
-  const double cost = mahalanobis_squared(pairing.residual, covariance) + pairing.penalty;
+  const double cost = mahalanobis_squared(pairing.residual, prior_covariance(pairing)) + pairing.penalty;
   if (!(cost < gate_)) return;
   pairings_.push_back(pairing);
   double& least_cost = least_cost_of_look_[static_cast<std::size_t>(pairing.look)];
@@ -93,12 +96,6 @@ void JointAssociation::Estimate::add(const Pairing& pairing) {
   covariance -= gain.lazyProduct(crossed.transpose());
 }
 
-JointAssociation::Estimate JointAssociation::given_nothing() const {
-  Estimate estimate;
-  estimate.covariance = prior_;
-  return estimate;
-}
-
 /// A look with one track, but not near it: it may be of something new.
 bool JointAssociation::is_doubtful(std::size_t look) const {
   return pairings_of_look_[look] > 0 && least_cost_of_look_[look] > kSureShare * gate_;
@@ -123,11 +120,9 @@ void JointAssociation::assign(const Estimate& estimate, int look_left_alone,
     const Pairing& pairing = pairings_[p];
     if (pairing.look == look_left_alone) continue;
     const int column = column_of_track_[static_cast<std::size_t>(pairing.track)];
-    const Eigen::Matrix2d covariance =
-        pairing.own_covariance + projected(pairing.jacobian, estimate.covariance);
-    costs(pairing.look, column) =
-        mahalanobis_squared(pairing.residual - pairing.jacobian * estimate.mean, covariance) +
-        pairing.penalty;
+    costs(pairing.look, column) = mahalanobis_squared(pairing.residual - pairing.jacobian * estimate.mean,
+                                                      residual_covariance(pairing, estimate.covariance)) +
+                                  pairing.penalty;
     pairing_at_(pairing.look, column) = static_cast<int>(p);
   }
   const std::vector<int>& column_of_look = assignment_.solve(costs, gate_);
@@ -142,11 +137,11 @@ void JointAssociation::assign(const Estimate& estimate, int look_left_alone,
 void JointAssociation::explain(const Pairing* start, int look_left_alone) {
   if (hypothesis_count_ == kMostHypotheses) return;
   Hypothesis& hypothesis = hypotheses_[hypothesis_count_++];
-  Estimate estimate = given_nothing();
+  Estimate estimate;
   if (start != nullptr) estimate.add(*start);
   for (int round = 0; round < kRounds; ++round) {
     assign(estimate, look_left_alone, hypothesis.pairing_of_look);
-    estimate = given_nothing();
+    estimate = Estimate{};
     for (const int pairing : hypothesis.pairing_of_look) {
       if (pairing != kNone) estimate.add(pairings_[static_cast<std::size_t>(pairing)]);
     }
@@ -191,8 +186,7 @@ void JointAssociation::report_best() {
     if (match.track == kNone) continue;
     const Pairing& pairing = pairings_[static_cast<std::size_t>(best.pairing_of_look[i])];
     match.innovation = pairing.residual - pairing.jacobian * best.estimate.mean;
-    match.innovation_covariance =
-        pairing.own_covariance + projected(pairing.jacobian, best.estimate.covariance);
+    match.innovation_covariance = residual_covariance(pairing, best.estimate.covariance);
   }
 }
 
@@ -203,7 +197,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
       Match& match = matches_[static_cast<std::size_t>(pairing.look)];
       match.track = pairing.track;
       match.innovation = pairing.residual;
-      match.innovation_covariance = pairing.own_covariance + projected(pairing.jacobian, prior_);
+      match.innovation_covariance = prior_covariance(pairing);
     }
     return matches_;
   }

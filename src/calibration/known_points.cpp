@@ -47,14 +47,10 @@ bool KnownPoints::match(const std::vector<Candidate>& candidates, double shared_
   }
   if (open_.empty()) return false;
 
-  SharedError::Matrix prior = SharedError::Matrix::Zero();
-  prior.block<2, 2>(SharedError::kFrame, SharedError::kFrame)
-      .diagonal()
-      .setConstant(shared_sigma_m * shared_sigma_m);
-  association_.begin(open_.size(), prior, gate, ambiguity);
+  association_.begin(open_.size(), gate, ambiguity);
   Pairing pairing;
   pairing.jacobian.setZero();
-  pairing.jacobian.middleCols<2>(SharedError::kFrame).setIdentity();
+  pairing.jacobian.middleCols<2>(SharedError::kFrame).diagonal().setConstant(shared_sigma_m);
   for (std::size_t i = 0; i < open_.size(); ++i) {
     const Entry& entry = entries_[open_[i]];
     const double variance = own_sigma_m * own_sigma_m + entry.sigma_m * entry.sigma_m;

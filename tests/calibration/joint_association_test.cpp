@@ -14,20 +14,14 @@ namespace {
 constexpr double kGate = 11.8, kAmbiguity = 9.0;
 constexpr double kOwnSigma_m = 0.05;
 
-/// Position errors that all looks share, `sigma_m` an axis; nothing else is unknown.
-SharedError::Matrix shift_prior(double sigma_m) {
-  SharedError::Matrix prior = SharedError::Matrix::Zero();
-  prior.block<2, 2>(SharedError::kFrame, SharedError::kFrame).diagonal().setConstant(sigma_m * sigma_m);
-  return prior;
-}
-
-Pairing pairing(int look, int track, const Eigen::Vector2d& residual) {
+/// All looks share a position error of `shared_sigma_m` an axis; nothing else is unknown.
+Pairing pairing(int look, int track, const Eigen::Vector2d& residual, double shared_sigma_m) {
   Pairing pairing;
   pairing.look = look;
   pairing.track = track;
   pairing.residual = residual;
   pairing.jacobian.setZero();
-  pairing.jacobian.middleCols<2>(SharedError::kFrame).setIdentity();
+  pairing.jacobian.middleCols<2>(SharedError::kFrame).diagonal().setConstant(shared_sigma_m);
   pairing.own_covariance = kOwnSigma_m * kOwnSigma_m * Eigen::Matrix2d::Identity();
   return pairing;
 }
@@ -35,10 +29,10 @@ Pairing pairing(int look, int track, const Eigen::Vector2d& residual) {
 std::vector<JointAssociation::Match> solve(const std::vector<Eigen::Vector2d>& looks,
                                            const std::vector<Eigen::Vector2d>& tracks, double sigma_m) {
   JointAssociation association(20, 50);
-  association.begin(looks.size(), shift_prior(sigma_m), kGate, kAmbiguity);
+  association.begin(looks.size(), kGate, kAmbiguity);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     for (std::size_t k = 0; k < tracks.size(); ++k)
-      association.add(pairing(static_cast<int>(i), static_cast<int>(k), looks[i] - tracks[k]));
+      association.add(pairing(static_cast<int>(i), static_cast<int>(k), looks[i] - tracks[k], sigma_m));
   }
   return association.solve();
 }
@@ -78,7 +72,7 @@ TEST(JointAssociation, ClaimsNothingOfALoneLookFarFromItsTrack) {
 
 /// Cost of an explanation by its definition: the joint chi-square of all residuals, and the gate for each
 /// look left alone.
-double joint_cost(const std::vector<Pairing>& pairs, std::size_t alone, const SharedError::Matrix& prior) {
+double joint_cost(const std::vector<Pairing>& pairs, std::size_t alone) {
   const auto n = static_cast<Eigen::Index>(pairs.size());
   Eigen::VectorXd residual(2 * n);
   Eigen::MatrixXd jacobian(2 * n, SharedError::kSize);
@@ -89,29 +83,28 @@ double joint_cost(const std::vector<Pairing>& pairs, std::size_t alone, const Sh
     jacobian.middleRows<2>(2 * i) = pair.jacobian;
     covariance.block<2, 2>(2 * i, 2 * i) = pair.own_covariance;
   }
-  covariance += jacobian * prior * jacobian.transpose();
+  covariance += jacobian * jacobian.transpose();
   return (n == 0 ? 0.0 : residual.dot(covariance.llt().solve(residual))) + kGate * static_cast<double>(alone);
 }
 
 /// The least cost of all one-to-one explanations, by trying every one.
 void try_all(std::size_t look, std::size_t looks, std::size_t tracks, const std::vector<Pairing>& all,
-             std::vector<Pairing>& chosen, const SharedError::Matrix& prior, double& best,
-             std::vector<int>& best_tracks) {
+             std::vector<Pairing>& chosen, double& best, std::vector<int>& best_tracks) {
   if (look == looks) {
-    const double cost = joint_cost(chosen, looks - chosen.size(), prior);
+    const double cost = joint_cost(chosen, looks - chosen.size());
     if (cost >= best) return;
     best = cost;
     best_tracks.assign(looks, JointAssociation::kNone);
     for (const Pairing& pair : chosen) best_tracks[static_cast<std::size_t>(pair.look)] = pair.track;
     return;
   }
-  try_all(look + 1, looks, tracks, all, chosen, prior, best, best_tracks);
+  try_all(look + 1, looks, tracks, all, chosen, best, best_tracks);
   for (std::size_t k = 0; k < tracks; ++k) {
     const Pairing& pair = all[look * tracks + k];
     if (std::any_of(chosen.begin(), chosen.end(), [&](const Pairing& c) { return c.track == pair.track; }))
       continue;
     chosen.push_back(pair);
-    try_all(look + 1, looks, tracks, all, chosen, prior, best, best_tracks);
+    try_all(look + 1, looks, tracks, all, chosen, best, best_tracks);
     chosen.pop_back();
   }
 }
@@ -133,11 +126,11 @@ TEST(JointAssociation, FindsTheBestOfAllExplanationsWhereItClaimsOne) {
     std::vector<Pairing> all, chosen;
     for (std::size_t i = 0; i < looks.size(); ++i) {
       for (std::size_t k = 0; k < tracks.size(); ++k)
-        all.push_back(pairing(static_cast<int>(i), static_cast<int>(k), looks[i] - tracks[k]));
+        all.push_back(pairing(static_cast<int>(i), static_cast<int>(k), looks[i] - tracks[k], 0.5));
     }
     double best = std::numeric_limits<double>::infinity();
     std::vector<int> best_tracks;
-    try_all(0, looks.size(), tracks.size(), all, chosen, shift_prior(0.5), best, best_tracks);
+    try_all(0, looks.size(), tracks.size(), all, chosen, best, best_tracks);
     for (std::size_t i = 0; i < looks.size(); ++i) {
       if (matches[i].is_ambiguous) continue;
       ++claimed;

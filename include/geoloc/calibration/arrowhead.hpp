@@ -7,6 +7,7 @@
 
 #include "geoloc/calibration/calibration.hpp"
 #include "geoloc/calibration/drift.hpp"
+#include "geoloc/calibration/envelope_cholesky.hpp"
 #include "geoloc/calibration/landmark.hpp"
 
 namespace geoloc {
@@ -18,8 +19,9 @@ class ArrowheadSolver {
   /// For at most so many nodes; sigma_offset_m: of the vehicle's constant position error, an axis.
   ArrowheadSolver(const CalibrationPrior& prior, int max_nodes);
 
-  /// Solves for the head with the objects' sums. Sets the nodes' means and the calibration.
-  void solve(const std::vector<const Landmark*>& landmarks, double sigma_offset_m, DriftTimeline& drift,
+  /// Solves for the head with the objects' sums. Sets the nodes' means and the calibration. False, and
+  /// nothing is set, where rounding has left no solution.
+  bool solve(const std::vector<const Landmark*>& landmarks, double sigma_offset_m, DriftTimeline& drift,
              Calibration& calibration);
 
   /// Covariance of the newest node after solve().
@@ -42,21 +44,16 @@ class ArrowheadSolver {
   CalibrationVector prior_sigma(double sigma_offset_m) const;
 
  private:
-  using Gains = Eigen::Matrix<double, Eigen::Dynamic, 2>;
-
   void add_prior(double sigma_offset_m, const DriftTimeline& drift);
   void add_landmark(const Landmark& landmark, const DriftTimeline& drift);
   void add_gain(const Landmark& landmark, const DriftTimeline& drift, double sign) const;
-  Eigen::Matrix2d head_covariance() const;
+  Eigen::Matrix2d head_covariance(Eigen::Index first) const;
 
   CalibrationVector prior_mean_;
   CalibrationVector prior_sigma_;  // of all but the offset
-  Eigen::MatrixXd information_;    // S; its lower triangle holds the Cholesky factor after solve()
+  EnvelopeCholesky information_;   // S, and its factor after solve()
   Eigen::VectorXd right_hand_side_;
-  Eigen::MatrixXd columns_;  // scratch: right-hand sides for covariances
-  Eigen::MatrixXd inverse_;  // scratch: of the factor
-  mutable Gains gains_;      // scratch: dx/d(head), transposed
-  Eigen::Index size_ = 0;
+  mutable EnvelopeCholesky::TwoColumns gains_;  // scratch: dx/d(head), transposed
   NodeMatrix newest_node_covariance_ = NodeMatrix::Zero();
 };
 

@@ -59,8 +59,8 @@ class DriftTimeline {
   int size() const { return static_cast<int>(end_ - begin_); }
   bool is_full() const { return size() >= config_.max_nodes; }
 
-  const DriftNode& node(std::uint32_t number) const { return nodes_[number % nodes_.size()]; }
-  DriftNode& node(std::uint32_t number) { return nodes_[number % nodes_.size()]; }
+  const DriftNode& node(std::uint32_t number) const { return nodes_[place(number)]; }
+  DriftNode& node(std::uint32_t number) { return nodes_[place(number)]; }
 
   /// Information of a node's prior, with the wandering of the position scaled as set.
   NodeVector information(std::uint32_t number) const {
@@ -76,10 +76,11 @@ class DriftTimeline {
   void freeze_oldest();
 
  private:
+  std::size_t place(std::uint32_t number) const { return number & (nodes_.size() - 1); }
   void append(VehicleTime time, double sigma_position_m, bool continues);
 
   DriftConfig config_;
-  std::vector<DriftNode> nodes_;  // a ring
+  std::vector<DriftNode> nodes_;  // a ring; its length is a power of two
   std::uint32_t begin_ = 0;
   std::uint32_t end_ = 0;
   double position_scale_ = 1.0;

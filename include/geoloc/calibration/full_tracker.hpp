@@ -59,10 +59,8 @@ class FullTracker {
     Eigen::Matrix2d pixel_information = Eigen::Matrix2d::Zero();  // sum of the looks'
     double size_m = 0.0;                                          // apparent, mean
     Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();     // A^-1
-    SharedError::Row gain = SharedError::Row::Zero();  // of the position, by what the next looks share
-    double gain_spread = 0.0;                          // trace of the position's covariance through it
-    SharedError::Row whitened_gain =
-        SharedError::Row::Zero();  // gain times a root of the shared error's covariance
+    SharedError::Row gain =
+        SharedError::Row::Zero();  // of the position, by what the next looks share, whitened
   };
 
   /// A detection of the present frame.
@@ -70,12 +68,18 @@ class FullTracker {
     LandmarkObservation observation;
     Eigen::Vector2d position;  // corrected by calibration and drift
     Eigen::Matrix2d pixel_noise;
-    SharedError::Row jacobian;           // of the position
-    SharedError::Row whitened_jacobian;  // times a root of the shared error's covariance
-    double spread = 0.0;                 // trace of the position's covariance through the shared error
-    double clutter_density = 0.0;        // [1/m^2]
+    SharedError::Row jacobian;     // of the position, whitened
+    double clutter_density = 0.0;  // [1/m^2]
+    double ground_per_pixel_m = 0.0;
     double size_m = 0.0;
     const Detection* detection = nullptr;
+  };
+
+  /// How far a track can be from a look that shows it: a bound that is cheap for every pair of them.
+  struct Reach {
+    Eigen::Vector2d position;
+    double own_variance = 0.0;  // trace
+    double shared_m = 0.0;      // distance of its Jacobian from the looks' mean one
   };
 
   void begin_frame(const FrameView& view);
@@ -83,12 +87,13 @@ class FullTracker {
                   const FrameView& view);
   bool is_duplicate(const Look& look) const;
   void associate();
-  void add_pairings(int look);
-  Pairing pairing(int look, int track) const;
-  SharedError::Matrix shared_prior() const;
-  void whiten(const SharedError::Matrix& root);
-  double spread(const SharedError::Row& jacobian) const;
+  void add_pairings();
+  Pairing pairing(std::size_t look, std::size_t track) const;
+  SharedError::Row whitened(const SharedError::CalibrationRow& by_calibration,
+                            const Eigen::Matrix<double, 2, kNodeSize>& by_drift) const;
+  void find_roots();
   bool is_matched(std::size_t look) const;
+  bool is_seen(std::size_t track) const { return look_of_track_[track] != JointAssociation::kNone; }
   Eigen::Vector2d common_shift();
   void absorb_matched(HostTime captured_at);
   void note_same_frame_evidence();
@@ -96,7 +101,7 @@ class FullTracker {
   void start_tentative(HostTime captured_at);
   void remove_improbable();
   void solve_if_due(VehicleTime now);
-  void solve();
+  bool solve();
   void state_covariances();
   void merge_compatible();
   bool may_be_one(std::size_t a, std::size_t b) const;
@@ -108,6 +113,8 @@ class FullTracker {
   void refresh(std::size_t track);
   Eigen::Matrix<double, 2, kNodeSize> recent_drift(const Landmark& landmark) const;
   void remove(std::size_t track);
+  std::optional<double> ground_per_pixel(std::size_t track, const Eigen::Vector2d& pixel,
+                                         const Projector& projector, const FrameView& view) const;
   double detection_probability(std::size_t track, const Projector& projector, const FrameView& view) const;
   void learn_wandering();
   void cover_known_points(const Projector& projector, const FrameView& view);
@@ -120,6 +127,9 @@ class FullTracker {
   DriftTimeline drift_;
   ArrowheadSolver solver_;
   Calibration calibration_;
+  /// Roots of the covariances, C = R R', of calibration and newest node: what whitens Jacobians.
+  SharedError::CalibrationMatrix calibration_root_;
+  NodeMatrix drift_root_;
   KnownPoints known_points_;
   std::vector<KnownPoints::Candidate> known_candidates_;  // scratch
 
@@ -140,10 +150,11 @@ class FullTracker {
   Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
   JointAssociation association_;
   const std::vector<JointAssociation::Match>* matches_ = nullptr;  // of the looks
-  std::vector<char> is_seen_;                                      // of the tracks, in this frame
+  std::vector<int> look_of_track_;                                 // kNone: not seen in this frame
   std::vector<char> is_in_doubt_;                                  // perhaps seen: no conclusion
   std::vector<double> detection_probability_of_track_;             // of the tracks this frame should show
   std::vector<double> median_scratch_;
+  std::vector<Reach> reach_of_track_;  // scratch of add_pairings
 
   std::optional<VehicleTime> previous_frame_;
   std::optional<VehicleTime> solved_at_;

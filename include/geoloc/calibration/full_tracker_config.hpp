@@ -47,7 +47,7 @@ struct FullTrackerConfig {
   double merge_gate = 9.2;          ///< squared Mahalanobis distance; 99 %
   int max_tracks = 1000;
 
-  double solve_period_s = 1.0;  ///< of calibration, drift and covariances; every frame at first
+  double solve_period_s = 2.0;  ///< of calibration, drift and covariances; every frame at first
 
   std::vector<std::string> problems() const;
 };

@@ -11,6 +11,7 @@ namespace geoloc {
 
 /// What all looks of a frame are off by together, as one vector: calibration (without the offset, which
 /// cancels between a look and a track that looks made), drift of the vehicle's state, noise of the frame.
+/// All Jacobians by it are whitened: by its components in units in which their prior covariance is one.
 struct SharedError {
   static constexpr int kCalibrationSize = 5;
   static constexpr int kCalibration = 0;  ///< boresight, latency, height
@@ -22,6 +23,8 @@ struct SharedError {
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   using Row = Eigen::Matrix<double, 2, kSize>;
+  using CalibrationMatrix = Eigen::Matrix<double, kCalibrationSize, kCalibrationSize>;
+  using CalibrationRow = Eigen::Matrix<double, 2, kCalibrationSize>;
 };
 
 /// A look that may show a track: residual = jacobian * shared error + noise of its own.
@@ -29,7 +32,7 @@ struct Pairing {
   int look = 0;
   int track = 0;
   Eigen::Vector2d residual;        ///< look minus track [m]
-  SharedError::Row jacobian;       ///< of the residual
+  SharedError::Row jacobian;       ///< of the residual, whitened [m]
   Eigen::Matrix2d own_covariance;  ///< detector's noise and what is not known of the track by itself [m^2]
   double penalty = 0.0;            ///< added to the squared distance: classes differ
 };
@@ -54,7 +57,7 @@ class JointAssociation {
 
   /// A new frame. gate: squared Mahalanobis distance at which a look is rather left alone; ambiguity: as much
   /// worse, in the same units, an explanation may be to be held possible.
-  void begin(std::size_t looks, const SharedError::Matrix& prior, double gate, double ambiguity);
+  void begin(std::size_t looks, double gate, double ambiguity);
 
   /// A pair that may belong together; those beyond the gate by themselves are dropped.
   void add(const Pairing& pairing);
@@ -72,7 +75,7 @@ class JointAssociation {
   /// Shared error given some pairs.
   struct Estimate {
     SharedError::Vector mean = SharedError::Vector::Zero();
-    SharedError::Matrix covariance = SharedError::Matrix::Zero();
+    SharedError::Matrix covariance = SharedError::Matrix::Identity();
     double cost = 0.0;  // of the pairs, jointly: -2 ln of their probability density, but for a constant
 
     void add(const Pairing& pairing);
@@ -85,7 +88,6 @@ class JointAssociation {
     Estimate estimate;
   };
 
-  Estimate given_nothing() const;
   bool is_doubtful(std::size_t look) const;
   bool is_plain() const;
   void explain(const Pairing* start, int look_left_alone);
@@ -96,7 +98,6 @@ class JointAssociation {
 
   double gate_ = 0.0;
   double ambiguity_ = 0.0;
-  SharedError::Matrix prior_;
   std::vector<Pairing> pairings_;
   std::vector<int> pairings_of_look_;  // how many
   std::vector<double> least_cost_of_look_;

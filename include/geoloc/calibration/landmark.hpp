@@ -27,6 +27,8 @@ struct LandmarkObservation {
 class Landmark {
  public:
   using CalibrationRow = Eigen::Matrix<double, 2, CalibrationIndex::kSize>;
+  /// More nodes than an object is usually seen in; beyond, its oldest is frozen.
+  static constexpr std::size_t kMaxNodes = 16;
 
   /// What ties the object to one drift node.
   struct NodeTerms {
@@ -62,9 +64,6 @@ class Landmark {
   const NodeTerms* end() const { return nodes_.data() + node_count_; }
 
  private:
-  /// More nodes than an object is usually seen in; beyond, its oldest is frozen.
-  static constexpr std::size_t kMaxNodes = 16;
-
   NodeTerms& terms_of(std::uint32_t node, const DriftTimeline& drift);
   void drop_oldest(const NodeVector& value);
 
