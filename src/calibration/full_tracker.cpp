@@ -31,6 +31,21 @@ FullTrackerConfig checked(const FullTrackerConfig& config) {
   return config;
 }
 
+/// A detector that fires twice on one object: the more confident box came first.
+bool is_duplicate(const Look& look, const std::vector<Look>& kept, double duplicate_share) {
+  return std::any_of(kept.begin(), kept.end(), [&](const Look& other) {
+    return other.detection->class_id == look.detection->class_id &&
+           (other.position - look.position).squaredNorm() <
+               std::pow(duplicate_share * std::min(other.size_m, look.size_m), 2);
+  });
+}
+
+Eigen::Matrix2d mean_frame_noise(const std::vector<Look>& looks) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const Look& look : looks) sum += look.frame_noise;
+  return looks.empty() ? sum : sum / static_cast<double>(looks.size());
+}
+
 }  // namespace
 
 FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint> known_points,
@@ -39,6 +54,7 @@ FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint
       drift_(config.drift),
       solver_(config.prior, config.drift.max_nodes),
       known_points_(std::move(known_points), config.max_tracks),
+      moving_(config, max_detections),
       reported_accuracy_m_(config.horizontal_accuracy_m),
       association_(max_detections, config.max_tracks),
       expected_hits_(config.detection_probability * kPriorOpportunities),
@@ -56,6 +72,10 @@ FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint
   is_in_doubt_.reserve(tracks);
   detection_probability_of_track_.reserve(tracks);
   looks_.reserve(looks);
+  if (!config.moving.classes.empty()) {
+    moving_looks_.reserve(looks);
+    all_tracks_.reserve(2 * tracks);
+  }
   median_scratch_.reserve(looks);
   calibration_.mean = solver_.prior_mean();
   calibration_.covariance = solver_.prior_sigma(sigma_offset_m()).array().square().matrix().asDiagonal();
@@ -93,7 +113,9 @@ void FullTracker::update(const std::vector<LocatedDetection>& detections, const 
   start_tentative(view.captured_at_host);
   note_same_frame_evidence();
   remove_improbable();
+  track_moving(projector, view);
   solve_if_due(view.vehicle.time);
+  list_all_tracks();
 }
 
 void FullTracker::begin_frame(const FrameView& view) {
@@ -118,61 +140,72 @@ void FullTracker::begin_frame(const FrameView& view) {
 void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, const Projector& projector,
                              const FrameView& view) {
   looks_.clear();
-  frame_noise_.setZero();
+  moving_looks_.clear();
+  for (const LocatedDetection& located : detections) {
+    const Look look = make_look(located, projector, view);
+    std::vector<Look>& kind = moving_.is_of_moving_class(located.detection) ? moving_looks_ : looks_;
+    if (!is_duplicate(look, kind, config_.duplicate_share)) kind.push_back(look);
+  }
+  frame_noise_ = mean_frame_noise(looks_.empty() ? moving_looks_ : looks_);
+  const Eigen::Matrix2d frame_root = frame_noise_.llt().matrixL();
+  for (std::vector<Look>* kind : {&looks_, &moving_looks_}) {
+    for (Look& look : *kind) look.jacobian.middleCols<2>(SharedError::kFrame) = frame_root;
+  }
+}
+
+Look FullTracker::make_look(const LocatedDetection& located, const Projector& projector,
+                            const FrameView& view) const {
   const double height_m =
       view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
-  const double attitude_variance = std::pow(config_.sigma_attitude_deg * kRadPerDeg, 2);
+  const FixJacobians jacobians = jacobians_of(located.fix, view, height_m);
+  const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
+  const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
+  const Eigen::Matrix2d time_noise =
+      std::pow(config_.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose();
   const double fast_variance =
       std::pow(config_.fast_share * drift_.position_scale() * reported_accuracy_m_, 2) / 2.0;
-  const CameraIntrinsics& camera = projector.camera().intrinsics();
   // What the fix already holds: all but the offset.
   CalibrationVector applied = calibration_.mean;
   applied.segment<2>(Index::kOffset).setZero();
 
-  for (const LocatedDetection& located : detections) {
-    const FixJacobians jacobians = jacobians_of(located.fix, view, height_m);
-    const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
-    const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
-    const Eigen::Matrix2d pixel_noise = located.fix.covariance(config_.sigma_px);
-    const Eigen::Matrix2d time_noise =
-        std::pow(config_.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose();
-    const Eigen::Matrix2d frame_noise =
-        attitude_variance * turn * turn.transpose() + fast_variance * Eigen::Matrix2d::Identity();
-    const double ground_per_pixel_m2 = std::abs(located.fix.ground_from_pixel.determinant());
-
-    Look look;
-    look.observation.value = located.fix.position_in_enu - jacobians.calibration * applied;
-    look.observation.calibration_jacobian = jacobians.calibration;
-    look.observation.node_jacobian = jacobians.node;
-    look.observation.span = span_;
-    look.observation.information = (pixel_noise + time_noise + noise_correlation_ * frame_noise).inverse();
-    look.position = located.fix.position_in_enu + calibration_.offset_m() + jacobians.node * drift_now_;
-    look.pixel_noise = pixel_noise;
-    look.jacobian = whitened(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
-    look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * ground_velocity;
-    look.clutter_density =
-        config_.clutter_per_frame / (ground_per_pixel_m2 * camera.width_px * camera.height_px);
-    look.ground_per_pixel_m = std::sqrt(ground_per_pixel_m2);
-    look.size_m =
-        look.ground_per_pixel_m * std::min(located.detection.box.width, located.detection.box.height);
-    look.detection = &located.detection;
-    if (is_duplicate(look)) continue;
-    looks_.push_back(look);
-    frame_noise_ += frame_noise;
-  }
-  if (looks_.empty()) return;
-  frame_noise_ /= static_cast<double>(looks_.size());
-  const Eigen::Matrix2d frame_root = frame_noise_.llt().matrixL();
-  for (Look& look : looks_) look.jacobian.middleCols<2>(SharedError::kFrame) = frame_root;
+  Look look;
+  look.pixel_noise = located.fix.covariance(config_.sigma_px);
+  look.frame_noise = std::pow(config_.sigma_attitude_deg * kRadPerDeg, 2) * turn * turn.transpose() +
+                     fast_variance * Eigen::Matrix2d::Identity();
+  look.observation.value = located.fix.position_in_enu - jacobians.calibration * applied;
+  look.observation.calibration_jacobian = jacobians.calibration;
+  look.observation.node_jacobian = jacobians.node;
+  look.observation.span = span_;
+  look.observation.information =
+      (look.pixel_noise + time_noise + noise_correlation_ * look.frame_noise).inverse();
+  look.position = located.fix.position_in_enu + calibration_.offset_m() + jacobians.node * drift_now_;
+  look.jacobian = whitened(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
+  look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * ground_velocity;
+  const CameraIntrinsics& camera = projector.camera().intrinsics();
+  const double ground_per_pixel_m2 = std::abs(located.fix.ground_from_pixel.determinant());
+  look.clutter_density =
+      config_.clutter_per_frame / (ground_per_pixel_m2 * camera.width_px * camera.height_px);
+  look.ground_per_pixel_m = std::sqrt(ground_per_pixel_m2);
+  look.size_m = look.ground_per_pixel_m * std::min(located.detection.box.width, located.detection.box.height);
+  look.detection = &located.detection;
+  return look;
 }
 
-/// A detector that fires twice on one object: the more confident box came first.
-bool FullTracker::is_duplicate(const Look& look) const {
-  return std::any_of(looks_.begin(), looks_.end(), [&](const Look& kept) {
-    return kept.detection->class_id == look.detection->class_id &&
-           (kept.position - look.position).squaredNorm() <
-               std::pow(config_.duplicate_share * std::min(kept.size_m, look.size_m), 2);
-  });
+void FullTracker::track_moving(const Projector& projector, const FrameView& view) {
+  if (config_.moving.classes.empty()) return;
+  const Eigen::Matrix2d offset_covariance =
+      calibration_.covariance.block<2, 2>(Index::kOffset, Index::kOffset);
+  moving_.update(moving_looks_,
+                 {projector, view, calibration_.offset_m() + drift_now_.head<2>() - shift_, offset_covariance,
+                  counted_detection_probability()},
+                 book_);
+}
+
+void FullTracker::list_all_tracks() {
+  if (config_.moving.classes.empty()) return;
+  all_tracks_.resize(tracks_.size() + moving_.tracks().size());
+  std::merge(tracks_.begin(), tracks_.end(), moving_.tracks().begin(), moving_.tracks().end(),
+             all_tracks_.begin(), [](const Track& a, const Track& b) { return a.id < b.id; });
 }
 
 void FullTracker::solve_if_due(VehicleTime now) {

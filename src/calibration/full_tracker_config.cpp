@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/calibration/full_tracker_config.hpp"
 
+#include <algorithm>
+
 #include "geoloc/geometry/problems.hpp"
 
 namespace geoloc {
+
+std::vector<std::string> MovingConfig::problems() const {
+  Problems found;
+  found.require(
+      classes.size() <= 1000 && std::all_of(classes.begin(), classes.end(), [](int id) { return id >= 0; }),
+      "full.moving.classes must be at most 1000 ids >= 0");
+  found.require(sigma_acceleration_mps2 > 0.0 && sigma_acceleration_mps2 <= 100.0,
+                "full.moving.sigma_acceleration_mps2 must lie in (0, 100]");
+  found.require(sigma_speed_mps > 0.0 && sigma_speed_mps <= 200.0,
+                "full.moving.sigma_speed_mps must lie in (0, 200]");
+  found.require(memory_s > 0.0 && memory_s <= 600.0, "full.moving.memory_s must lie in (0, 600]");
+  return found.take();
+}
 
 std::vector<std::string> FullTrackerConfig::problems() const {
   Problems found;
   found.add(prior.problems());
   found.add(drift.problems());
+  found.add(moving.problems());
   found.require(sigma_px > 0.0 && sigma_px <= 1000.0, "full.sigma_px must lie in (0, 1000]");
   found.require(sigma_attitude_deg > 0.0 && sigma_attitude_deg <= 30.0,
                 "full.sigma_attitude_deg must lie in (0, 30]");

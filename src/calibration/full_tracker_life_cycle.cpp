@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geoloc/calibration/full_tracker.hpp"
+#include "geoloc/calibration/visibility.hpp"
 #include "geoloc/geometry/angles.hpp"
 
 // What becomes of tracks: seen, missed, begun, removed, merged.
@@ -15,13 +16,19 @@ namespace {
 constexpr double kSigmaSameObject_m = 0.15;
 /// Looks to remember: the detection probability follows the light and the ground.
 constexpr double kMostOpportunities = 2000.0;
-
-/// Of detection, as counted; never certain either way.
-double counted_probability(double hits, double opportunities) {
-  return std::clamp(hits / opportunities, 0.05, 0.98);
-}
+/// Looks beside a younger neighbour that may show that a track was made of looks at both, how far they must
+/// be off together (chi-square, 2 degrees of freedom, 99.9 %), and how near to the line away from it.
+constexpr int kLooksToSplit = 5;
+constexpr double kSplitGate = 13.8;
+constexpr double kSplitCosine = 0.7;
+constexpr double kLeastSplit_m = 0.1;  // a box's centre is not the same point of an object from everywhere
 
 }  // namespace
+
+/// As counted; never certain either way.
+double FullTracker::counted_detection_probability() const {
+  return std::clamp(expected_hits_ / opportunities_, 0.05, 0.98);
+}
 
 /// Two tracks that two looks of one frame made, or were matched to, are two objects.
 void FullTracker::note_same_frame_evidence() {
@@ -33,6 +40,7 @@ void FullTracker::note_same_frame_evidence() {
       if (other == seen || apart.squaredNorm() > reach_m * reach_m) continue;
       if (is_seen(other)) {
         estimates_[seen].neighbours.seen_apart(tracks_[other].id);
+        if (tracks_[seen].id < tracks_[other].id) split_if_mixed(seen, other);
       } else if (detection_probability_of_track_[other] > 0.0) {
         estimates_[seen].neighbours.seen_as_one(tracks_[other].id);
         estimates_[other].neighbours.seen_as_one(tracks_[seen].id);
@@ -41,37 +49,54 @@ void FullTracker::note_same_frame_evidence() {
   }
 }
 
+/// Whether the looks that came beside a younger neighbour are drawn away from it by more than noise does.
+bool FullTracker::is_drawn_aside(std::size_t track, std::size_t younger) const {
+  const Mixture& mixture = estimates_[track].mixture;
+  if (mixture.looks < kLooksToSplit) return false;
+  const Eigen::Vector2d mean = mixture.sum_of_innovations / mixture.looks;
+  const double noise = mixture.sum_of_noise / (mixture.looks * mixture.looks);
+  if (mean.squaredNorm() < kSplitGate * noise + kLeastSplit_m * kLeastSplit_m) return false;
+  const Eigen::Vector2d away = tracks_[track].position_in_enu.mean - tracks_[younger].position_in_enu.mean;
+  return mean.dot(away) > kSplitCosine * mean.norm() * away.norm();
+}
+
+/// Of two neighbours that a detector took for one object for a while, the older track is made of looks at
+/// both and lies between them. Once it is seen beside the younger one its looks are drawn to one side; then
+/// it begins anew from them, since the sums do not tell which look showed which.
+void FullTracker::split_if_mixed(std::size_t track, std::size_t younger) {
+  const auto look_index = static_cast<std::size_t>(look_of_track_[track]);
+  const JointAssociation::Match& match = (*matches_)[look_index];
+  Estimate& estimate = estimates_[track];
+  if (match.track == JointAssociation::kNone || estimate.is_known) return;
+  const Look& look = looks_[look_index];
+  ++estimate.mixture.looks;
+  estimate.mixture.sum_of_innovations += match.innovation;
+  estimate.mixture.sum_of_noise += look.pixel_noise.trace();
+  if (!is_drawn_aside(track, younger)) return;
+  landmarks_[estimate.landmark] = Landmark{};
+  estimate.pixel_information.setZero();
+  estimate.mixture = Mixture{};
+  add_to_sums(track, look);
+  tracks_[track].position_in_enu.covariance = covariance_of_first(look);
+}
+
 /// Where this frame would show a place: corrections undone.
 Eigen::Vector2d FullTracker::shown_in_frame(const Eigen::Vector2d& position_in_enu) const {
   return position_in_enu - calibration_.offset_m() - drift_now_.head<2>() + shift_;
 }
 
-/// At a track's place; its look's, where it has one, is as good and known already.
-std::optional<double> FullTracker::ground_per_pixel(std::size_t track, const Eigen::Vector2d& pixel,
-                                                    const Projector& projector, const FrameView& view) const {
-  if (is_seen(track)) return looks_[static_cast<std::size_t>(look_of_track_[track])].ground_per_pixel_m;
-  const auto fix = projector.project(pixel, view.enu_from_camera);
-  if (!fix) return std::nullopt;
-  return std::sqrt(std::abs(fix->ground_from_pixel.determinant()));
-}
-
-/// Zero outside the image, at its edge and for objects too small; otherwise what was counted so far.
+/// Of a track in this frame: what was counted so far, where it is to be seen well.
 double FullTracker::detection_probability(std::size_t track, const Projector& projector,
                                           const FrameView& view) const {
-  const Eigen::Vector2d shown = shown_in_frame(tracks_[track].position_in_enu.mean);
-  const auto pixel = projector.reproject(shown, view.enu_from_camera);
-  if (!pixel) return 0.0;
-  const auto ground_per_pixel_m = ground_per_pixel(track, *pixel, projector, view);
-  if (!ground_per_pixel_m) return 0.0;
-  const double pixel_per_m = 1.0 / *ground_per_pixel_m;
-  const double size_px = estimates_[track].size_m * pixel_per_m;
-  const double sigma_px =
-      std::sqrt(estimates_[track].own_covariance.trace() + estimates_[track].gain.squaredNorm()) *
-      pixel_per_m;
-  const double margin_px = 0.6 * size_px + 2.0 * std::min(sigma_px, size_px) + 2.0 * config_.sigma_px;
-  if (!projector.camera().contains(*pixel, margin_px)) return 0.0;
-  const double seen_well = std::clamp(size_px / std::max(config_.smallest_object_px, 1e-9) - 1.0, 0.0, 1.0);
-  return seen_well * counted_probability(expected_hits_, opportunities_);
+  ShownObject object;
+  object.position_in_enu = shown_in_frame(tracks_[track].position_in_enu.mean);
+  object.sigma_m = std::sqrt(estimates_[track].own_covariance.trace() + estimates_[track].gain.squaredNorm());
+  object.size_m = estimates_[track].size_m;
+  if (is_seen(track)) {  // its look's is as good and known already
+    object.ground_per_pixel_m = looks_[static_cast<std::size_t>(look_of_track_[track])].ground_per_pixel_m;
+  }
+  return visibility(object, projector, view, config_.sigma_px, config_.smallest_object_px) *
+         counted_detection_probability();
 }
 
 void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
@@ -101,14 +126,23 @@ void FullTracker::weigh_missed(const Projector& projector, const FrameView& view
 void FullTracker::absorb(std::size_t k, const Look& look) {
   Track& track = tracks_[k];
   Estimate& estimate = estimates_[k];
-  landmarks_[estimate.landmark].add(look.observation, drift_);
-  estimate.pixel_information += look.pixel_noise.inverse();
   estimate.last_look = now_;
   estimate.size_m += (look.size_m - estimate.size_m) / (track.hits + 1);
   ++track.hits;
   track.confidence_sum += look.detection->confidence;
   track.class_votes.add(look.detection->class_id, look.detection->confidence);
+  add_to_sums(k, look);
+}
+
+void FullTracker::add_to_sums(std::size_t k, const Look& look) {
+  landmarks_[estimates_[k].landmark].add(look.observation, drift_);
+  estimates_[k].pixel_information += look.pixel_noise.inverse();
   refresh(k);
+}
+
+/// Of a track that this look begins.
+Eigen::Matrix2d FullTracker::covariance_of_first(const Look& look) const {
+  return look.pixel_noise + look.jacobian * look.jacobian.transpose();
 }
 
 /// Share of a track's sums that comes from the drift nodes of this moment.
@@ -131,7 +165,7 @@ void FullTracker::refresh(std::size_t k) {
 }
 
 void FullTracker::absorb_matched(HostTime captured_at) {
-  const double found = counted_probability(expected_hits_, opportunities_);
+  const double found = counted_detection_probability();
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (!is_matched(i)) continue;
     const JointAssociation::Match& match = (*matches_)[i];
@@ -153,7 +187,7 @@ void FullTracker::start_tentative(HostTime captured_at) {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if ((*matches_)[i].track != JointAssociation::kNone) continue;
     if (tracks_.size() >= static_cast<std::size_t>(config_.max_tracks)) {
-      ++counters_.refused;
+      ++book_.counters.refused;
       continue;
     }
     Estimate estimate;
@@ -167,16 +201,15 @@ void FullTracker::start_tentative(HostTime captured_at) {
       landmarks_[estimate.landmark] = Landmark{};
     }
     Track track;
-    track.id = next_id_++;
+    track.id = book_.next_id++;
     track.first_seen = track.last_seen = captured_at;
     tracks_.push_back(track);
     estimates_.push_back(estimate);
     look_of_track_.push_back(static_cast<int>(i));
     detection_probability_of_track_.push_back(0.0);
     absorb(tracks_.size() - 1, looks_[i]);
-    tracks_.back().position_in_enu.covariance =
-        looks_[i].pixel_noise + looks_[i].jacobian * looks_[i].jacobian.transpose();
-    ++counters_.created;
+    tracks_.back().position_in_enu.covariance = covariance_of_first(looks_[i]);
+    ++book_.counters.created;
   }
 }
 
@@ -192,7 +225,7 @@ void FullTracker::remove_improbable() {
     if (*tracks_[k].existence >= config_.delete_probability) continue;
     known_points_.forget(tracks_[k].id);
     remove(k);
-    ++counters_.removed;
+    ++book_.counters.removed;
   }
 }
 
@@ -236,7 +269,7 @@ void FullTracker::merge(std::size_t a, std::size_t b) {
   merge_records(tracks_[a], tracks_[b]);
   remove(b);
   refresh(a);
-  ++counters_.merged;
+  ++book_.counters.merged;
 }
 
 void FullTracker::merge_compatible() {

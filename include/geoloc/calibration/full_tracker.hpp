@@ -12,6 +12,8 @@
 #include "geoloc/calibration/joint_association.hpp"
 #include "geoloc/calibration/known_points.hpp"
 #include "geoloc/calibration/linearize.hpp"
+#include "geoloc/calibration/look.hpp"
+#include "geoloc/calibration/moving_tracker.hpp"
 #include "geoloc/calibration/neighbours.hpp"
 #include "geoloc/tracking/frame_view.hpp"
 #include "geoloc/tracking/track.hpp"
@@ -34,8 +36,8 @@ class FullTracker {
               const FrameView& view);
 
   /// Tentative and confirmed, in order of their ids.
-  const std::vector<Track>& tracks() const { return tracks_; }
-  const TrackCounters& counters() const { return counters_; }
+  const std::vector<Track>& tracks() const { return config_.moving.classes.empty() ? tracks_ : all_tracks_; }
+  const TrackCounters& counters() const { return book_.counters; }
 
   const KnownPoints& known_points() const { return known_points_; }
 
@@ -49,11 +51,20 @@ class FullTracker {
   /// Looks that make a track worth comparing with others and with known points.
   static constexpr int kHitsToCompare = 3;
 
+  /// Of looks at a track that came while another, younger one beside it was seen too: drawn to one side, they
+  /// tell that the track was made of looks at both.
+  struct Mixture {
+    int looks = 0;
+    Eigen::Vector2d sum_of_innovations = Eigen::Vector2d::Zero();
+    double sum_of_noise = 0.0;  // traces
+  };
+
   /// What the tracker knows of a track beyond its public face; same index as in tracks_.
   struct Estimate {
     std::size_t landmark = 0;  // place in landmarks_
     Existence existence{0.5};
     Neighbours neighbours;
+    Mixture mixture;
     VehicleTime last_look{};
     bool is_known = false;                                        // its surveyed place is in the sums
     Eigen::Matrix2d pixel_information = Eigen::Matrix2d::Zero();  // sum of the looks'
@@ -61,18 +72,6 @@ class FullTracker {
     Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();     // A^-1
     SharedError::Row gain =
         SharedError::Row::Zero();  // of the position, by what the next looks share, whitened
-  };
-
-  /// A detection of the present frame.
-  struct Look {
-    LandmarkObservation observation;
-    Eigen::Vector2d position;  // corrected by calibration and drift
-    Eigen::Matrix2d pixel_noise;
-    SharedError::Row jacobian;     // of the position, whitened
-    double clutter_density = 0.0;  // [1/m^2]
-    double ground_per_pixel_m = 0.0;
-    double size_m = 0.0;
-    const Detection* detection = nullptr;
   };
 
   /// How far a track can be from a look that shows it: a bound that is cheap for every pair of them.
@@ -85,7 +84,9 @@ class FullTracker {
   void begin_frame(const FrameView& view);
   void make_looks(const std::vector<LocatedDetection>& detections, const Projector& projector,
                   const FrameView& view);
-  bool is_duplicate(const Look& look) const;
+  Look make_look(const LocatedDetection& located, const Projector& projector, const FrameView& view) const;
+  void track_moving(const Projector& projector, const FrameView& view);
+  void list_all_tracks();
   void associate();
   void add_pairings();
   Pairing pairing(std::size_t look, std::size_t track) const;
@@ -97,6 +98,9 @@ class FullTracker {
   Eigen::Vector2d common_shift();
   void absorb_matched(HostTime captured_at);
   void note_same_frame_evidence();
+  void split_if_mixed(std::size_t track, std::size_t younger);
+  bool is_drawn_aside(std::size_t track, std::size_t younger) const;
+  double counted_detection_probability() const;
   void weigh_missed(const Projector& projector, const FrameView& view);
   void start_tentative(HostTime captured_at);
   void remove_improbable();
@@ -110,11 +114,11 @@ class FullTracker {
   double shared_share_of_noise(Duration pause) const;
   void merge(std::size_t a, std::size_t b);
   void absorb(std::size_t track, const Look& look);
+  void add_to_sums(std::size_t track, const Look& look);
+  Eigen::Matrix2d covariance_of_first(const Look& look) const;
   void refresh(std::size_t track);
   Eigen::Matrix<double, 2, kNodeSize> recent_drift(const Landmark& landmark) const;
   void remove(std::size_t track);
-  std::optional<double> ground_per_pixel(std::size_t track, const Eigen::Vector2d& pixel,
-                                         const Projector& projector, const FrameView& view) const;
   double detection_probability(std::size_t track, const Projector& projector, const FrameView& view) const;
   void learn_wandering();
   void cover_known_points(const Projector& projector, const FrameView& view);
@@ -133,6 +137,9 @@ class FullTracker {
   KnownPoints known_points_;
   std::vector<KnownPoints::Candidate> known_candidates_;  // scratch
 
+  MovingTracker moving_;
+  std::vector<Track> all_tracks_;  // where there are moving ones, those too
+
   std::vector<Track> tracks_;
   std::vector<Estimate> estimates_;
   std::vector<Landmark> landmarks_;  // places are reused
@@ -142,6 +149,7 @@ class FullTracker {
   // The present frame.
   VehicleTime now_{};
   std::vector<Look> looks_;
+  std::vector<Look> moving_looks_;
   NodeVector drift_now_ = NodeVector::Zero();
   NodeSpan span_{};
   double noise_correlation_ = 1.0;  // frames that share their noise
@@ -162,8 +170,7 @@ class FullTracker {
   int solutions_ = 0;
   double expected_hits_;  // of confirmed objects in view, and how many there were: the detection probability
   double opportunities_;
-  std::uint64_t next_id_ = 1;
-  TrackCounters counters_;
+  TrackBook book_;
 };
 
 }  // namespace geoloc

@@ -9,9 +9,20 @@
 
 namespace geoloc {
 
+/// Of objects that may move; all others are taken to stand still.
+struct MovingConfig {
+  std::vector<int> classes;              ///< ids; none: nothing moves
+  double sigma_acceleration_mps2 = 1.0;  ///< 1-sigma an axis of what changes their velocity within a second
+  double sigma_speed_mps = 5.0;          ///< of one seen for the first time, an axis
+  double memory_s = 10.0;                ///< one not seen for longer is not recognized again
+
+  std::vector<std::string> problems() const;
+};
+
 struct FullTrackerConfig {
   CalibrationPrior prior;
   DriftConfig drift;
+  MovingConfig moving;
 
   // Noise of one look.
   double sigma_px = 1.5;            ///< of a box's centre, an axis

@@ -18,7 +18,8 @@ struct Track {
   std::uint64_t id = 0;  ///< unique for the life of the tracker, never reused
   TrackStatus status = TrackStatus::kTentative;
   Gaussian2 position_in_enu;
-  int hits = 0;     ///< detections that made it
+  std::optional<Gaussian2> velocity_in_enu;  ///< [m/s]; of objects of moving classes
+  int hits = 0;                              ///< detections that made it
   int penalty = 0;  ///< frames in which it should have been seen and was not, less those in which it was
   double confidence_sum = 0.0;
   std::optional<double> existence;  ///< probability

@@ -64,9 +64,19 @@ void visit_fields(Visitor& v, DriftConfig& drift) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, MovingConfig& moving) {
+  v.field("classes", moving.classes, "ids of the classes whose objects may move; the others stand still");
+  v.field("sigma_acceleration_mps2", moving.sigma_acceleration_mps2,
+          "m/s^2, 1-sigma an axis of what changes their velocity within a second");
+  v.field("sigma_speed_mps", moving.sigma_speed_mps, "m/s, 1-sigma an axis of one seen for the first time");
+  v.field("memory_s", moving.memory_s, "s, one not seen for longer is not recognized again");
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, FullTrackerConfig& full) {
   v.section("prior", full.prior);
   v.section("drift", full.drift);
+  v.section("moving", full.moving);
   v.field("sigma_px", full.sigma_px, "px, 1-sigma of a box's centre, an axis");
   v.field("sigma_time_s", full.sigma_time_s, "s, of a frame's stamp, from frame to frame");
   v.field("sigma_attitude_deg", full.sigma_attitude_deg, "deg, 1-sigma from frame to frame");

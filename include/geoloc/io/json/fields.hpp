@@ -78,6 +78,17 @@ class FieldReader {
       read(json[i], path + "[" + std::to_string(i) + "]", values[i]);
   }
 
+  template <typename T>
+  void read(const nlohmann::json& json, const std::string& path, std::vector<T>& values) {
+    if (!json.is_array()) {
+      problems_.push_back(path + " must be a list");
+      return;
+    }
+    values.assign(json.size(), T{});
+    for (std::size_t i = 0; i < json.size(); ++i)
+      read(json[i], path + "[" + std::to_string(i) + "]", values[i]);
+  }
+
   template <typename Enum, typename = std::enable_if_t<std::is_enum_v<Enum>>>
   void read(const nlohmann::json& json, const std::string& path, Enum& value) {
     std::string choices;
