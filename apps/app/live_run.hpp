@@ -26,9 +26,12 @@ class LiveRun {
     io::TimeQuality time_quality = io::TimeQuality::kArrival;  ///< of the last frame
   };
 
+  /// After each frame, with what the session answered.
+  using OnFrame = std::function<void(const PendingFrame& frame, bool is_located)>;
+
   /// All must outlive the run.
   LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
-          const io::HostClock& clock);
+          const io::HostClock& clock, OnFrame on_frame);
 
   /// One turn: waits some milliseconds for telemetry at most.
   void step();
@@ -49,6 +52,7 @@ class LiveRun {
   DetectionWorker& worker_;
   Recorder& recorder_;
   const io::HostClock& clock_;
+  OnFrame on_frame_;
   std::deque<DetectedFrame> waiting_;
   HostTime newest_captured_{};
   Stats stats_;

@@ -35,23 +35,18 @@ ordered_json to_feature(const ObjectReport& object) {
             {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)}}}};
 }
 
-ordered_json to_counters(const Geolocator& geolocator) {
-  const auto& frames = geolocator.counters();
-  const auto telemetry = geolocator.state().counters();
-  const auto& tracks = geolocator.track_counters();
-  std::uint64_t without_fix = 0;
-  for (const std::uint64_t count : frames.no_fix) without_fix += count;
-  return {{"frames", frames.frames},
-          {"frames_located", frames.frames_located},
-          {"frames_unusable", frames.frames_unusable},
-          {"detections", frames.detections},
-          {"detections_without_fix", without_fix},
-          {"attitudes", telemetry.attitudes},
-          {"positions", telemetry.positions},
-          {"reboots", telemetry.reboots},
-          {"tracks_created", tracks.created},
-          {"tracks_removed", tracks.removed},
-          {"tracks_merged", tracks.merged}};
+ordered_json to_counters(const RunCounters& counters) {
+  return {{"frames", counters.frames},
+          {"frames_located", counters.frames_located},
+          {"frames_unusable", counters.frames_unusable},
+          {"detections", counters.detections},
+          {"detections_without_fix", counters.detections_without_fix},
+          {"attitudes", counters.attitudes},
+          {"positions", counters.positions},
+          {"reboots", counters.reboots},
+          {"tracks_created", counters.tracks_created},
+          {"tracks_removed", counters.tracks_removed},
+          {"tracks_merged", counters.tracks_merged}};
 }
 
 /// null for a method that learns none.
@@ -87,13 +82,11 @@ const char* name_of(KnownPointStatus status) {
   return "";
 }
 
-ordered_json to_references(const Geolocator& geolocator) {
+ordered_json to_references(const std::vector<ReferenceReport>& reports) {
   auto references = ordered_json::array();
-  const auto& entries = geolocator.known_points();
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    ordered_json reference{{"id", geolocator.config().known_points[i].name},
-                           {"status", name_of(entries[i].status)}};
-    if (entries[i].status == KnownPointStatus::kMatched) reference["object"] = entries[i].track_id;
+  for (const ReferenceReport& report : reports) {
+    ordered_json reference{{"id", report.name}, {"status", name_of(report.status)}};
+    if (report.status == KnownPointStatus::kMatched) reference["object"] = report.object_id;
     references.push_back(std::move(reference));
   }
   return references;
@@ -101,14 +94,14 @@ ordered_json to_references(const Geolocator& geolocator) {
 
 }  // namespace
 
-std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const Geolocator& geolocator) {
+std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const EstimatorReport& estimator) {
   auto features = ordered_json::array();
   for (const ObjectReport& object : objects) features.push_back(to_feature(object));
   ordered_json collection{{"type", "FeatureCollection"},
-                          {"method", geolocator.calibration() ? "full" : "paper"},
-                          {"calibration", to_calibration(geolocator.calibration())},
-                          {"counters", to_counters(geolocator)}};
-  if (!geolocator.known_points().empty()) collection["references"] = to_references(geolocator);
+                          {"method", estimator.calibration ? "full" : "paper"},
+                          {"calibration", to_calibration(estimator.calibration)},
+                          {"counters", to_counters(estimator.counters)}};
+  if (!estimator.references.empty()) collection["references"] = to_references(estimator.references);
   collection["features"] = std::move(features);
   // Class names come from models and may hold anything; bytes that are not UTF-8 are replaced.
   return collection.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -23,10 +23,10 @@ ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance) {
 }
 
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
-                                         const std::vector<std::string>& class_names) {
+                                         const std::vector<std::string>& class_names, TrackStatus status) {
   std::vector<ObjectReport> reports;
   for (const Track& track : geolocator.tracks()) {
-    if (track.status != TrackStatus::kConfirmed) continue;
+    if (track.status != status) continue;
     ObjectReport report;
     report.id = track.id;
     report.class_id = track.class_id();
@@ -39,6 +39,7 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
     report.last_seen = track.last_seen;
     report.position_in_enu = track.position_in_enu.mean;
     report.position = geolocator.local_frame()->to_geodetic(report.position_in_enu);
+    report.covariance_in_enu = track.position_in_enu.covariance;
     report.ellipse = error_ellipse(track.position_in_enu.covariance);
     reports.push_back(report);
   }

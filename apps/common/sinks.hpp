@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "common/outputs.hpp"
+
+namespace geoloc::apps {
+
+/// The outputs that a command line names; empty ones are left out.
+struct OutputFiles {
+  std::string objects;  ///< GeoJSON
+  std::string raw;      ///< CSV of every located detection
+  std::string picture;  ///< SVG
+};
+
+/// Throws std::invalid_argument for what is none.
+void add_sinks(const OutputFiles& files, Outputs& outputs);
+
+}  // namespace geoloc::apps
