@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
   console.say(record.summary);
-  if (options.outputs.objects.empty()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
+  if (!options.outputs.has_objects()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed();
   return has_failed ? kFailed : kDone;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays a recording: the same objects, the same bytes, every time.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <optional>
 
@@ -74,6 +75,7 @@ int main(int argc, char** argv) {
   Options options;
   add_options(program, options);
   if (const auto status = parse(program, argc, argv)) return *status;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that went is an output's error, not the replay's end
 
   std::optional<io::Recording> recording;
   std::optional<Session> session;
@@ -115,7 +117,7 @@ int main(int argc, char** argv) {
   outputs->finish(record);
   for (const std::string& message : outputs->take_messages())
     std::fprintf(stderr, "geoloc_replay: %s\n", message.c_str());
-  if (options.outputs.objects.empty()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
+  if (!options.outputs.has_objects()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   std::fprintf(stderr, "%s\n", record.summary.c_str());
   return outputs->has_failed() ? kFailed : kDone;
 }

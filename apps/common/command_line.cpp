@@ -14,6 +14,13 @@ void add_output_options(CLI::App& program, OutputFiles& files) {
     program.add_option(name, file, help)->type_name("FILE")->group("Outputs");
   };
   add("--out", files.objects, "Confirmed objects, GeoJSON");
+  add("--csv", files.csv, "Confirmed objects, CSV");
+  add("--kml", files.kml, "Objects, ellipses and trajectory for Google Earth, KML");
+  program.add_option("--jsonl", files.jsonl, "Frames and objects as they come, JSON Lines; - is stdout")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Outputs");
   add("--raw", files.raw, "Every located detection, CSV");
   add("--picture", files.picture, "Map of the run, SVG");
 }

@@ -46,6 +46,10 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
   return reports;
 }
 
+bool has_place(const ObjectReport& object) {
+  return is_valid(object.position) && object.position_in_enu.allFinite();
+}
+
 std::string iso8601(HostTime time) {
   const auto since_epoch = std::chrono::floor<std::chrono::milliseconds>(time.time_since_epoch());
   const auto whole_seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);

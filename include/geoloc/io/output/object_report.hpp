@@ -40,6 +40,9 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
                                          const std::vector<std::string>& class_names,
                                          TrackStatus status = TrackStatus::kConfirmed);
 
+/// Whether its position is finite and on the globe; an object without one is in no output.
+bool has_place(const ObjectReport& object);
+
 /// UTC, ISO 8601 with milliseconds: 2026-11-22T09:30:00.123Z.
 std::string iso8601(HostTime time);
 
