@@ -37,7 +37,7 @@ struct Program {
                       [&](io::RecordingWriter& writer) { writer.add_telemetry(received_at, frame, size); });
                 }),
         outputs(inputs.detector->class_names(), {}) {
-    add_sinks(given.outputs, outputs);
+    add_sinks(given.outputs, inputs.config.estimation, outputs);
     recorder.write([this](io::RecordingWriter& writer) {
       writer.write_camera(inputs.config.estimation.geolocator.camera);
       writer.write_config(live_to_json(inputs.config).dump(2));

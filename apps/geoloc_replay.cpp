@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
     session.emplace(config);
     // A replay is faster than its sinks, so it waits for them.
     outputs.emplace(recording->class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait});
-    add_sinks(options.outputs, *outputs);
+    add_sinks(options.outputs, config, *outputs);
   });
   if (unusable) return *unusable;
   if (options.print_config) return kDone;

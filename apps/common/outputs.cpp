@@ -11,9 +11,12 @@ Outputs::Outputs(std::vector<std::string> class_names, const io::SinkRunnerConfi
 
 void Outputs::add(std::unique_ptr<io::Sink> sink) {
   const bool wants_frames = sink->wants_frames();
-  all_.push_back(std::make_unique<io::SinkRunner>(
-      std::move(sink), config_, [box = messages_](const std::string& message) { box->post(message); }));
+  all_.push_back(std::make_unique<io::SinkRunner>(std::move(sink), config_, teller()));
   if (wants_frames) streams_.push_back(all_.back().get());
+}
+
+io::SinkRunner::Tell Outputs::teller() const {
+  return [box = messages_](const std::string& message) { box->post(message); };
 }
 
 void Outputs::frame(const Session& session, const PendingFrame& frame, bool is_located) {

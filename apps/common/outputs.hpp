@@ -32,6 +32,9 @@ class Outputs {
   /// An output could not be written, or was left unfinished. Final after finish().
   bool has_failed() const;
 
+  /// For sinks that have something to tell a user themselves.
+  io::SinkRunner::Tell teller() const;
+
   /// What the sinks have to tell a user, since the last call.
   std::vector<std::string> take_messages() { return messages_->take(); }
 

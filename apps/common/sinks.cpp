@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geoloc/io/output/cot_sink.hpp"
 #include "geoloc/io/output/csv.hpp"
 #include "geoloc/io/output/file_sink.hpp"
 #include "geoloc/io/output/geojson.hpp"
@@ -24,7 +25,7 @@ bool OutputFiles::has_objects() const {
   return !objects.empty() || std::find(jsonl.begin(), jsonl.end(), "-") != jsonl.end();
 }
 
-void add_sinks(const OutputFiles& files, Outputs& outputs) {
+void add_sinks(const OutputFiles& files, const EstimationConfig& config, Outputs& outputs) {
   const auto add = [&outputs](const char* option, const std::string& file, io::FileSink::Render render) {
     if (!file.empty()) outputs.add(std::make_unique<io::FileSink>(option, file, std::move(render)));
   };
@@ -34,6 +35,8 @@ void add_sinks(const OutputFiles& files, Outputs& outputs) {
   add("--csv", files.csv, [](const io::RunRecord& run) { return io::objects_to_csv(run.objects); });
   add("--kml", files.kml, io::run_to_kml);
   for (const std::string& target : files.jsonl) outputs.add(std::make_unique<io::JsonLinesSink>(target));
+  for (const std::string& target : files.cot)
+    outputs.add(std::make_unique<io::CotSink>(target, config.cot, outputs.teller()));
   add("--picture", files.picture, [](const io::RunRecord& run) { return io::to_svg(io::picture_of(run)); });
 }
 

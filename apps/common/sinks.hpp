@@ -16,12 +16,13 @@ struct OutputFiles {
   std::string csv;                 ///< of the objects
   std::string kml;                 ///< of the run
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output
+  std::vector<std::string> cot;    ///< endpoints: udp://HOST:PORT, tcp://HOST:PORT
 
   /// Whether standard output is taken, or a file holds what is otherwise printed there.
   bool has_objects() const;
 };
 
 /// Throws std::invalid_argument for what is none.
-void add_sinks(const OutputFiles& files, Outputs& outputs);
+void add_sinks(const OutputFiles& files, const EstimationConfig& config, Outputs& outputs);
 
 }  // namespace geoloc::apps
