@@ -11,6 +11,7 @@
 #include "app/options.hpp"
 #include "app/recorder.hpp"
 #include "app/stop_signal.hpp"
+#include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
 #include "common/outputs.hpp"
 #include "common/periodic.hpp"
@@ -31,10 +32,12 @@ struct Program {
       : options(given),
         inputs(open_inputs(given, clock)),
         recorder(given.record_folder),
+        reports(inputs.config.estimation, inputs.detector->class_names()),
         session(inputs.config.estimation,
                 [this](HostTime received_at, const std::uint8_t* frame, std::size_t size) {
                   recorder.write(
                       [&](io::RecordingWriter& writer) { writer.add_telemetry(received_at, frame, size); });
+                  reports.on_telemetry(frame, size);
                 }),
         outputs(inputs.detector->class_names(), {}) {
     add_sinks(given.outputs, inputs.config.estimation, outputs);
@@ -55,6 +58,7 @@ struct Program {
   io::HostClock clock;
   LiveInputs inputs;
   Recorder recorder;
+  VehicleReports reports;
   Session session;
   Outputs outputs;
 };
@@ -69,7 +73,7 @@ void run_until_stopped(Program& program, Console& console) {
   const LiveInputs& inputs = program.inputs;
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock);
-  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.clock,
+  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.reports, program.clock,
               [&program](const PendingFrame& frame, bool is_located) {
                 program.outputs.frame(program.session, frame, is_located);
               });

@@ -9,6 +9,7 @@
 #include "app/detection_worker.hpp"
 #include "app/recorder.hpp"
 #include "app/running_mean.hpp"
+#include "app/vehicle_reports.hpp"
 #include "common/session.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
 
@@ -31,7 +32,7 @@ class LiveRun {
 
   /// All must outlive the run.
   LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
-          const io::HostClock& clock, OnFrame on_frame);
+          VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame);
 
   /// One turn: waits some milliseconds for telemetry at most.
   void step();
@@ -51,6 +52,7 @@ class LiveRun {
   io::UdpSocket& socket_;
   DetectionWorker& worker_;
   Recorder& recorder_;
+  VehicleReports& reports_;
   const io::HostClock& clock_;
   OnFrame on_frame_;
   std::deque<DetectedFrame> waiting_;

@@ -18,6 +18,9 @@ void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
   v.field("attitude_rate_hz", mavlink.attitude_rate_hz, "Hz, asked for");
   v.field("position_rate_hz", mavlink.position_rate_hz, "Hz, asked for");
   v.field("link_timeout_s", mavlink.link_timeout_s, "s of silence; then everything is asked for anew");
+  v.field("camera", mavlink.camera, "be a camera component that tells where objects are (docs/outputs.md)");
+  v.field("camera_component_id", mavlink.camera_component_id, "its number, 100-105");
+  v.field("status_text", mavlink.status_text, "STATUSTEXT for each object that is confirmed");
 }
 
 template <class Visitor>

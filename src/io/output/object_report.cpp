@@ -30,9 +30,7 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
     ObjectReport report;
     report.id = track.id;
     report.class_id = track.class_id();
-    const auto name = static_cast<std::size_t>(report.class_id);
-    report.class_name =
-        name < class_names.size() ? class_names[name] : "class " + std::to_string(report.class_id);
+    report.class_name = class_name_of(report.class_id, class_names);
     report.confidence = track.confidence();
     report.hits = track.hits;
     report.first_seen = track.first_seen;
@@ -44,6 +42,11 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
     reports.push_back(report);
   }
   return reports;
+}
+
+std::string class_name_of(int class_id, const std::vector<std::string>& class_names) {
+  const auto name = static_cast<std::size_t>(class_id);
+  return name < class_names.size() ? class_names[name] : "class " + std::to_string(class_id);
 }
 
 bool has_place(const ObjectReport& object) {

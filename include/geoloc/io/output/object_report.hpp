@@ -35,10 +35,13 @@ struct ObjectReport {
   ErrorEllipse ellipse;
 };
 
-/// The objects of that status in order of their ids. A class without a name is called by its number.
+/// The objects of that status in order of their ids.
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
                                          const std::vector<std::string>& class_names,
                                          TrackStatus status = TrackStatus::kConfirmed);
+
+/// A class without a name is called by its number.
+std::string class_name_of(int class_id, const std::vector<std::string>& class_names);
 
 /// Whether its position is finite and on the globe; an object without one is in no output.
 bool has_place(const ObjectReport& object);
