@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <filesystem>
+#include <cstdio>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
+
+#include "geoloc/io/atomic_file.hpp"
 
 namespace geoloc::io {
 
@@ -29,10 +31,7 @@ void JsonLinesSink::open() {
     descriptor_ = STDOUT_FILENO;
     return;
   }
-  std::error_code ignored;
-  const auto type = std::filesystem::status(target_, ignored).type();
-  const bool is_file =
-      type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular;
+  const bool is_file = is_file_or_none(target_);
   if (is_file) partial_ = target_ + ".partial";
   descriptor_ = ::open(is_file ? partial_.c_str() : target_.c_str(),
                        O_WRONLY | O_CLOEXEC | (is_file ? O_CREAT | O_TRUNC : 0), 0666);
