@@ -2,23 +2,35 @@
 #include "app/console.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
+
+#include "geoloc/io/output/text.hpp"
 
 namespace geoloc::apps {
 namespace {
 
 constexpr auto kReminderPeriod = std::chrono::seconds{30};
 
+/// What matters most comes first: a narrow terminal shows the beginning.
 std::string status_line(const io::LiveStatus& status) {
   const int elapsed_s = static_cast<int>(seconds(status.elapsed));
   return fmt::format(
-      "{:02d}:{:02d}  telemetry {:.0f}+{:.0f} Hz  video {} {:.0f}/s time {}  detect {:.0f} ms  latency "
-      "{:.0f} ms  frames {}, {} without state  objects {} (+{})",
-      elapsed_s / 60, elapsed_s % 60, status.attitude_rate_hz, status.position_rate_hz, status.video_state,
-      status.video_rate_hz, status.frame_time, status.detect_ms, status.latency_ms, status.frames,
-      status.frames_unusable, status.objects, status.tentative);
+      "{:02d}:{:02d}  objects {} (+{})  telemetry {:.0f}+{:.0f} Hz  video {} {:.0f}/s  latency {:.0f} ms  "
+      "frames {}, {} without state  detect {:.0f} ms  time {}",
+      elapsed_s / 60, elapsed_s % 60, status.objects, status.tentative, status.attitude_rate_hz,
+      status.position_rate_hz, status.video_state, status.video_rate_hz, status.latency_ms, status.frames,
+      status.frames_unusable, status.detect_ms, status.frame_time);
+}
+
+/// Characters in a line of the terminal. One that is longer would be wrapped, and could not be overwritten.
+std::size_t terminal_width() {
+  constexpr std::size_t kUsual = 80;
+  winsize size{};
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return is_known ? size.ws_col : kUsual;
 }
 
 }  // namespace
@@ -34,14 +46,19 @@ void Console::tell(Topic& topic, HostTime now, const std::string& message, bool 
   const bool is_reminder = is_bad && now - topic.told_at > kReminderPeriod;
   if (message == topic.last && !is_reminder) return;
   topic = {message, now};
-  if (!message.empty()) say(message);
+  if (!message.empty()) say(io::clean_text(message));  // a server's words may be in it
 }
 
 void Console::update(const io::LiveStatus& status) {
   tell(link_, status.at, status.link, !status.link_is_good);
   tell(video_, status.at, status.video, !status.video_is_good);
   tell(warning_, status.at, status.warning, true);
-  std::fprintf(stderr, is_terminal_ ? "\r\033[K%s" : "%s\n", status_line(status).c_str());
+  const std::string line = status_line(status);
+  if (is_terminal_) {
+    std::fprintf(stderr, "\r\033[K%s", line.substr(0, terminal_width() - 1).c_str());
+  } else {
+    std::fprintf(stderr, "%s\n", line.c_str());
+  }
   std::fflush(stderr);
   line_is_open_ = is_terminal_;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -8,12 +10,13 @@
 
 namespace geoloc::apps {
 
-/// Lines for a user, from any thread to the one that owns the terminal.
+/// Lines for a user, from any thread to the one that owns the terminal. One that waits is not repeated.
 class MessageBox {
  public:
   void post(const std::string& message) {
     const std::lock_guard lock(mutex_);
-    if (messages_.size() < kMost) messages_.push_back(message);
+    const bool is_waiting = std::find(messages_.begin(), messages_.end(), message) != messages_.end();
+    if (!is_waiting && messages_.size() < kMost) messages_.push_back(message);
   }
 
   std::vector<std::string> take() {

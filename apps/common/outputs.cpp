@@ -44,6 +44,7 @@ void Outputs::finish(io::RunRecord final_run) {
     const auto stats = sink->stats();
     if (stats.dropped > 0)
       messages_->post(sink->name() + ": " + std::to_string(stats.dropped) + " frames were left out");
+    if (stats.has_lost_run || stats.has_lost_frames) messages_->post(stats.error);
     if (stats.is_stuck) messages_->post(sink->name() + ": does not answer, left unfinished");
   }
 }

@@ -88,7 +88,10 @@ void SinkRunner::State::guarded(const std::function<void()>& step, bool is_run) 
   }
   {
     const std::lock_guard lock(mutex);
-    if (!error.empty()) ++stats.failures;
+    if (!error.empty()) {
+      ++stats.failures;
+      stats.error = error;
+    }
     if (is_run) {
       stats.has_lost_run = !error.empty();  // a run holds all that came before
     } else if (!error.empty()) {

@@ -34,6 +34,7 @@ class SinkRunner {
     std::uint64_t failures = 0;    ///< calls that threw
     bool has_lost_frames = false;  ///< a call for a frame, a state or the end threw
     bool has_lost_run = false;     ///< that for the last run did
+    std::string error;             ///< what it said
     bool is_stuck = false;         ///< finish() left it behind in a call that did not return
 
     bool has_failed() const { return has_lost_frames || has_lost_run || is_stuck; }
