@@ -7,17 +7,24 @@
 
 #include "app/console.hpp"
 #include "app/live_run.hpp"
+#include "app/live_status.hpp"
 #include "app/options.hpp"
 #include "app/recorder.hpp"
 #include "app/stop_signal.hpp"
+#include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
+#include "common/outputs.hpp"
+#include "common/periodic.hpp"
+#include "common/run_outputs.hpp"
 
 namespace {
 
 using namespace geoloc;
 using namespace geoloc::apps;
 
-constexpr auto kOutputPeriod = std::chrono::seconds{5};
+constexpr auto kStatusPeriod = std::chrono::seconds{1};
+/// Files are written anew so often, so that a power cut costs seconds.
+constexpr auto kFilePeriod = std::chrono::seconds{5};
 
 /// Everything that can be wrong with arguments, files, model and port is found while this is made.
 struct Program {
@@ -25,11 +32,15 @@ struct Program {
       : options(given),
         inputs(open_inputs(given, clock)),
         recorder(given.record_folder),
+        reports(inputs.config.estimation, inputs.detector->class_names()),
         session(inputs.config.estimation,
                 [this](HostTime received_at, const std::uint8_t* frame, std::size_t size) {
                   recorder.write(
                       [&](io::RecordingWriter& writer) { writer.add_telemetry(received_at, frame, size); });
-                }) {
+                  reports.on_telemetry(frame, size);
+                }),
+        outputs(inputs.detector->class_names(), {}) {
+    add_sinks(given.outputs, inputs.config.estimation, outputs);
     recorder.write([this](io::RecordingWriter& writer) {
       writer.write_camera(inputs.config.estimation.geolocator.camera);
       writer.write_config(live_to_json(inputs.config).dump(2));
@@ -38,39 +49,46 @@ struct Program {
     });
   }
 
-  void write_results() const {
+  io::RunRecord record() const {
     const std::string source = options.rtsp_url.empty() ? options.video_file : "live run";
-    write_outputs(options.outputs, session, inputs.detector->class_names(), inputs.truth,
-                  "geoloc: " + source);
+    return record_run(session, inputs.detector->class_names(), inputs.truth, "geoloc: " + source);
   }
 
   LiveOptions options;
   io::HostClock clock;
   LiveInputs inputs;
   Recorder recorder;
+  VehicleReports reports;
   Session session;
+  Outputs outputs;
 };
 
-/// Until the video ends or the user has enough. Results are written now and then, so that a power cut costs
-/// seconds.
+void tell_all(const std::vector<std::string>& messages, Console& console) {
+  for (const std::string& message : messages) console.say("geoloc_app: " + message);
+}
+
+/// Until the video ends or the user has enough.
 void run_until_stopped(Program& program, Console& console) {
   const StopSignal stop;
   const LiveInputs& inputs = program.inputs;
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock);
-  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.clock);
-  HostTime written_at = program.clock.now();
+  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.reports, program.clock,
+              [&program](const PendingFrame& frame, bool is_located) {
+                program.outputs.frame(program.session, frame, is_located);
+              });
+  const HostTime started_at = program.clock.now();
+  Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at);
   while (!stop.is_requested() && !run.has_ended()) {
     run.step();
     const HostTime now = program.clock.now();
-    console.update(now, program.session, *inputs.video, worker, run);
-    if (now - written_at < kOutputPeriod) continue;
-    written_at = now;
-    try {
-      program.write_results();
-    } catch (const std::exception& error) {
-      console.say(std::string("geoloc_app: ") + error.what() + " (trying again)");
+    if (status.is_due(now)) {
+      const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
+      tell_all(program.outputs.take_messages(), console);
+      console.update(state);
+      program.outputs.status(state);
     }
+    if (files.is_due(now)) program.outputs.run(program.record());
   }
 }
 
@@ -95,19 +113,16 @@ int main(int argc, char** argv) {
   if (unusable) return *unusable;
   if (!program) return kDone;
 
-  Console console(program->clock.now());
+  Console console;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
   run_until_stopped(*program, console);
 
   program->recorder.finish();
-  console.say(summarize(program->session, program->inputs.truth));
-  const auto failed = guard("geoloc_app", kFailed, [&] {
-    program->write_results();
-    if (options.outputs.objects.empty()) {
-      const auto objects =
-          io::report_objects(program->session.geolocator(), program->inputs.detector->class_names());
-      std::fputs(objects_to_table(objects).c_str(), stdout);
-    }
-  });
-  return failed.value_or(program->recorder.has_failed() ? kFailed : kDone);
+  const io::RunRecord record = program->record();
+  program->outputs.finish(record);
+  tell_all(program->outputs.take_messages(), console);
+  console.say(record.summary);
+  if (!options.outputs.has_objects()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
+  const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed();
+  return has_failed ? kFailed : kDone;
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays a recording: the same objects, the same bytes, every time.
 #include <CLI/CLI.hpp>
+#include <csignal>
 #include <cstdio>
 #include <optional>
 
 #include "common/command_line.hpp"
 #include "common/estimation_config.hpp"
+#include "common/outputs.hpp"
 #include "common/progress.hpp"
 #include "common/replay.hpp"
 #include "common/run_outputs.hpp"
@@ -73,9 +75,11 @@ int main(int argc, char** argv) {
   Options options;
   add_options(program, options);
   if (const auto status = parse(program, argc, argv)) return *status;
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that went is an output's error, not the replay's end
 
   std::optional<io::Recording> recording;
   std::optional<Session> session;
+  std::optional<Outputs> outputs;
   std::vector<io::TrueTarget> truth;
   const auto unusable = guard("geoloc_replay", kUnusable, [&] {
     if (options.recording.empty() && !options.print_config)
@@ -91,23 +95,29 @@ int main(int argc, char** argv) {
     }
     truth = options.truth_file.empty() ? recording->truth : io::read_truth(options.truth_file);
     session.emplace(config);
+    // A replay is faster than its sinks, so it waits for them.
+    outputs.emplace(recording->class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait});
+    add_sinks(options.outputs, config, *outputs);
   });
   if (unusable) return *unusable;
   if (options.print_config) return kDone;
 
   if (recording->skipped_lines > 0)
     std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", recording->skipped_lines);
-  ProgressLine progress("replaying", recording->frames.size());
-  replay(recording->telemetry, recording->frames, *session, [&](std::size_t done) { progress.show(done); });
+  const std::size_t frames = recording->frames.size();
+  ProgressLine progress("replaying", frames);
+  std::size_t done = 0;
+  replay(recording->telemetry, recording->frames, *session, [&](const PendingFrame& frame, bool is_located) {
+    outputs->frame(*session, frame, is_located);
+    progress.show(++done);
+  });
   progress.finish();
 
-  const auto failed = guard("geoloc_replay", kFailed, [&] {
-    write_outputs(options.outputs, *session, recording->class_names, truth, options.recording);
-    if (options.outputs.objects.empty()) {
-      const auto objects = io::report_objects(session->geolocator(), recording->class_names);
-      std::fputs(objects_to_table(objects).c_str(), stdout);
-    }
-  });
-  std::fprintf(stderr, "%s\n", summarize(*session, truth).c_str());
-  return failed.value_or(kDone);
+  const io::RunRecord record = record_run(*session, recording->class_names, truth, options.recording);
+  outputs->finish(record);
+  for (const std::string& message : outputs->take_messages())
+    std::fprintf(stderr, "geoloc_replay: %s\n", message.c_str());
+  if (!options.outputs.has_objects()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
+  std::fprintf(stderr, "%s\n", record.summary.c_str());
+  return outputs->has_failed() ? kFailed : kDone;
 }

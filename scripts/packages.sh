@@ -12,7 +12,7 @@ RUN_PACKAGES=(
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-plugins-ugly
   gstreamer1.0-libav
 )
-TEST_PACKAGES=(git ccache libgtest-dev libbenchmark-dev)
+TEST_PACKAGES=(git ccache libgtest-dev libbenchmark-dev gdal-bin)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }

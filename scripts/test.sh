@@ -4,6 +4,19 @@
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"
+
+# The programs that read our outputs back, in an environment of their own.
+install_consumers() {
+  local venv=build/consumers wanted=tests/apps/requirements.txt
+  ! cmp -s "$wanted" "$venv/installed.txt" || return 0
+  say "Installing consumers of the outputs into $venv"
+  rm -rf "$venv"
+  python3 -m venv "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check --only-binary :all: --no-deps -r "$wanted" \
+    >build/consumers.log 2>&1 || { tail -n 20 build/consumers.log >&2; return 1; }
+  cp "$wanted" "$venv/installed.txt"
+}
+
 preset=${1:-release}
 [ $# -eq 0 ] || shift
 case $preset in release | asan) ;; *) sed -n 3p "$0"; exit 2 ;; esac
@@ -11,6 +24,7 @@ case $preset in release | asan) ;; *) sed -n 3p "$0"; exit 2 ;; esac
 mkdir -p build
 source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+install_consumers
 say "Configuring ($preset)"
 cmake --preset "$preset" "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 say "Building ($preset)"

@@ -2,68 +2,40 @@
 #include "app/console.hpp"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
+
+#include "geoloc/io/output/text.hpp"
 
 namespace geoloc::apps {
 namespace {
 
-constexpr auto kLinePeriod = std::chrono::seconds{1};
 constexpr auto kReminderPeriod = std::chrono::seconds{30};
-constexpr double kSilence_s = 3.0;
 
-bool is_silent(const std::optional<Duration>& since) {
-  return !since || seconds(*since) > kSilence_s;
-}
-
-std::string link_message(const io::LinkStatus& link) {
-  if (!link.vehicle) return "waiting for a vehicle: no MAVLink heartbeat of an autopilot yet";
-  const std::string name = fmt::format("vehicle {}", link.vehicle->system);
-  if (is_silent(link.since_attitude)) return name + ": no attitude comes; frames cannot be located";
-  if (is_silent(link.since_position))
-    return name + ": no position comes (no fix yet?); frames cannot be located";
-  return name + ": telemetry comes";
-}
-
-std::string video_message(const io::VideoStatus& video) {
-  switch (video.state) {
-    case io::VideoState::kConnecting:
-      return "video: connecting";
-    case io::VideoState::kPlaying:
-      return "video: frames come";
-    case io::VideoState::kRetrying:
-      return "video: trying again: " + video.last_error;
-    case io::VideoState::kEnded:
-      return video.last_error.empty() ? "video: ended" : "video: ended: " + video.last_error;
-  }
-  return {};
-}
-
-std::string tracks(const Geolocator& geolocator) {
-  const auto& all = geolocator.tracks();
-  const auto confirmed = std::count_if(
-      all.begin(), all.end(), [](const Track& track) { return track.status == TrackStatus::kConfirmed; });
-  return fmt::format("objects {} (+{})", confirmed, static_cast<std::ptrdiff_t>(all.size()) - confirmed);
-}
-
-std::string status_line(double elapsed_s, const io::LinkStatus& link, const io::VideoStatus& video,
-                        const DetectionWorker::Stats& detection, const LiveRun::Stats& run,
-                        const Session& session) {
+/// What matters most comes first: a narrow terminal shows the beginning.
+std::string status_line(const io::LiveStatus& status) {
+  const int elapsed_s = static_cast<int>(seconds(status.elapsed));
   return fmt::format(
-      "{:02d}:{:02d}  telemetry {:.0f}+{:.0f} Hz  video {} {:.0f}/s time {}  detect {:.0f} ms  latency "
-      "{:.0f} ms  frames "
-      "{}, {} without state  {}",
-      static_cast<int>(elapsed_s) / 60, static_cast<int>(elapsed_s) % 60, link.attitude_rate_hz,
-      link.position_rate_hz, to_string(video.state), video.frames_per_second, to_string(run.time_quality),
-      detection.detect_ms.value(), 1e3 * run.latency_s.value(), session.frames(), session.frames_unusable(),
-      tracks(session.geolocator()));
+      "{:02d}:{:02d}  objects {} (+{})  telemetry {:.0f}+{:.0f} Hz  video {} {:.0f}/s  latency {:.0f} ms  "
+      "frames {}, {} without state  detect {:.0f} ms  time {}",
+      elapsed_s / 60, elapsed_s % 60, status.objects, status.tentative, status.attitude_rate_hz,
+      status.position_rate_hz, status.video_state, status.video_rate_hz, status.latency_ms, status.frames,
+      status.frames_unusable, status.detect_ms, status.frame_time);
+}
+
+/// Characters in a line of the terminal. One that is longer would be wrapped, and could not be overwritten.
+std::size_t terminal_width() {
+  constexpr std::size_t kUsual = 80;
+  winsize size{};
+  const bool is_known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;
+  return is_known ? size.ws_col : kUsual;
 }
 
 }  // namespace
 
-Console::Console(HostTime started_at) : started_at_(started_at), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+Console::Console() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void Console::say(const std::string& message) {
   std::fprintf(stderr, "%s%s\n", line_is_open_ ? "\r\033[K" : "", message.c_str());
@@ -74,23 +46,19 @@ void Console::tell(Topic& topic, HostTime now, const std::string& message, bool 
   const bool is_reminder = is_bad && now - topic.told_at > kReminderPeriod;
   if (message == topic.last && !is_reminder) return;
   topic = {message, now};
-  say(message);
+  if (!message.empty()) say(io::clean_text(message));  // a server's words may be in it
 }
 
-void Console::update(HostTime now, const Session& session, const io::VideoSource& video,
-                     const DetectionWorker& worker, const LiveRun& run) {
-  if (now - line_at_ < kLinePeriod) return;
-  line_at_ = now;
-  const io::LinkStatus link = session.link().status(now);
-  const io::VideoStatus stream = video.status();
-  const DetectionWorker::Stats detection = worker.stats();
-  tell(link_, now, link_message(link), is_silent(link.since_attitude) || is_silent(link.since_position));
-  tell(video_, now, video_message(stream), stream.state == io::VideoState::kRetrying);
-  if (detection.wrong_size > 0) tell(size_, now, detection.wrong_size_message, true);
-
-  const std::string line =
-      status_line(seconds(now - started_at_), link, stream, detection, run.stats(), session);
-  std::fprintf(stderr, is_terminal_ ? "\r\033[K%s" : "%s\n", line.c_str());
+void Console::update(const io::LiveStatus& status) {
+  tell(link_, status.at, status.link, !status.link_is_good);
+  tell(video_, status.at, status.video, !status.video_is_good);
+  tell(warning_, status.at, status.warning, true);
+  const std::string line = status_line(status);
+  if (is_terminal_) {
+    std::fprintf(stderr, "\r\033[K%s", line.substr(0, terminal_width() - 1).c_str());
+  } else {
+    std::fprintf(stderr, "%s\n", line.c_str());
+  }
   std::fflush(stderr);
   line_is_open_ = is_terminal_;
 }

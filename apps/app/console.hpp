@@ -1,25 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 
-#include "app/detection_worker.hpp"
-#include "app/live_run.hpp"
-#include "common/session.hpp"
-#include "geoloc/io/video/video_source.hpp"
+#include "geoloc/io/output/live_status.hpp"
 
 namespace geoloc::apps {
 
-/// What a person sees of a live run on stderr: a status line a second, and a message when the link or the
-/// video changes its state, repeated at intervals while it is bad.
+/// What a person sees of a live run on stderr: a status line, and a message when the link or the video
+/// changes its state, repeated at intervals while it is bad.
 class Console {
  public:
-  explicit Console(HostTime started_at);
+  Console();
 
-  /// To be called often; prints when something is due.
-  void update(HostTime now, const Session& session, const io::VideoSource& video,
-              const DetectionWorker& worker, const LiveRun& run);
+  void update(const io::LiveStatus& status);
 
   /// Prints a message on a line of its own.
   void say(const std::string& message);
@@ -33,13 +27,11 @@ class Console {
 
   void tell(Topic& topic, HostTime now, const std::string& message, bool is_bad);
 
-  HostTime started_at_;
-  HostTime line_at_{};
   bool is_terminal_;
   bool line_is_open_ = false;
   Topic video_;
   Topic link_;
-  Topic size_;
+  Topic warning_;
 };
 
 }  // namespace geoloc::apps

@@ -14,13 +14,20 @@ constexpr auto kFuture = std::chrono::milliseconds{500};  // clocks disagree a l
 }  // namespace
 
 LiveRun::LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
-                 const io::HostClock& clock)
-    : session_(session), socket_(socket), worker_(worker), recorder_(recorder), clock_(clock) {}
+                 VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame)
+    : session_(session),
+      socket_(socket),
+      worker_(worker),
+      recorder_(recorder),
+      reports_(reports),
+      clock_(clock),
+      on_frame_(std::move(on_frame)) {}
 
 void LiveRun::step() {
   receive_telemetry();
   session_.link().poll(clock_.now(),
                        [this](const std::uint8_t* frame, std::size_t size) { socket_.send(frame, size); });
+  reports_.poll(clock_.now(), session_, socket_);
   take_frames();
   process_ready();
 }
@@ -65,10 +72,12 @@ void LiveRun::process(const DetectedFrame& frame) {
   recorder_.write([&](io::RecordingWriter& writer) {
     writer.add_frame({frame.captured_at, frame.detections, recorder_.telemetry_records()});
   });
-  if (session_.process({frame.captured_at, frame.detections})) {
-    stats_.latency_s.add(seconds(clock_.now() - frame.captured_at));
-  }
+  const PendingFrame pending{frame.captured_at, frame.detections};
+  const bool is_located = session_.process(pending);
+  if (is_located) stats_.latency_s.add(seconds(clock_.now() - frame.captured_at));
   stats_.time_quality = frame.time_quality;
+  if (is_located) reports_.on_frame(session_, frame.captured_at);
+  on_frame_(pending, is_located);
 }
 
 }  // namespace geoloc::apps

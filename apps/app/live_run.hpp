@@ -9,6 +9,7 @@
 #include "app/detection_worker.hpp"
 #include "app/recorder.hpp"
 #include "app/running_mean.hpp"
+#include "app/vehicle_reports.hpp"
 #include "common/session.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
 
@@ -26,9 +27,12 @@ class LiveRun {
     io::TimeQuality time_quality = io::TimeQuality::kArrival;  ///< of the last frame
   };
 
+  /// After each frame, with what the session answered.
+  using OnFrame = std::function<void(const PendingFrame& frame, bool is_located)>;
+
   /// All must outlive the run.
   LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
-          const io::HostClock& clock);
+          VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame);
 
   /// One turn: waits some milliseconds for telemetry at most.
   void step();
@@ -48,7 +52,9 @@ class LiveRun {
   io::UdpSocket& socket_;
   DetectionWorker& worker_;
   Recorder& recorder_;
+  VehicleReports& reports_;
   const io::HostClock& clock_;
+  OnFrame on_frame_;
   std::deque<DetectedFrame> waiting_;
   HostTime newest_captured_{};
   Stats stats_;

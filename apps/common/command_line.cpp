@@ -14,6 +14,16 @@ void add_output_options(CLI::App& program, OutputFiles& files) {
     program.add_option(name, file, help)->type_name("FILE")->group("Outputs");
   };
   add("--out", files.objects, "Confirmed objects, GeoJSON");
+  add("--csv", files.csv, "Confirmed objects, CSV");
+  add("--kml", files.kml, "Objects, ellipses and trajectory for Google Earth, KML");
+  const auto add_several = [&program](const char* name, std::vector<std::string>& targets, const char* help,
+                                      const char* type) {
+    program.add_option(name, targets, help)->type_name(type)->allow_extra_args(false)->group("Outputs");
+  };
+  add_several("--jsonl", files.jsonl, "Frames and objects as they come, JSON Lines; - is stdout", "FILE");
+  add_several("--cot", files.cot,
+              "Confirmed objects to TAK: udp://HOST:PORT or tcp://HOST:PORT; ATAK: udp://239.2.3.1:6969",
+              "URL");
   add("--raw", files.raw, "Every located detection, CSV");
   add("--picture", files.picture, "Map of the run, SVG");
 }

@@ -6,7 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "common/run_outputs.hpp"
+#include "common/sinks.hpp"
+#include "geoloc/pipeline/geolocator_config.hpp"
 
 namespace geoloc::apps {
 

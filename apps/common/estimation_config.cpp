@@ -18,6 +18,22 @@ void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
   v.field("attitude_rate_hz", mavlink.attitude_rate_hz, "Hz, asked for");
   v.field("position_rate_hz", mavlink.position_rate_hz, "Hz, asked for");
   v.field("link_timeout_s", mavlink.link_timeout_s, "s of silence; then everything is asked for anew");
+  v.field("camera", mavlink.camera, "be a camera component that tells where objects are (docs/outputs.md)");
+  v.field("camera_component_id", mavlink.camera_component_id, "its number, 100-105");
+  v.field("status_text", mavlink.status_text, "STATUSTEXT for each object that is confirmed");
+}
+
+template <class Visitor>
+void visit_fields(Visitor& v, CotConfig& cot) {
+  v.field("uid_prefix", cot.uid_prefix, "of every object's uid");
+  v.field("type", cot.type, "CoT type of objects: unknown, on the ground");
+  v.field("types", cot.types, "CoT types by class name: `{\"car\": \"a-n-G-E-V-C\"}`");
+  v.field("period_s", cot.period_s, "s, an object is sent again so often");
+  v.field("stale_s", cot.stale_s, "s after its last event it is out of date");
+  v.field("error_probability", cot.error_probability, "that ce and le hold the object; 0.9: CE90 and LE90");
+  v.field("sigma_height_m", cot.sigma_height_m, "m, 1-sigma of the ground above sea level");
+  v.field("multicast_ttl", cot.multicast_ttl, "networks that a multicast datagram may cross");
+  v.field("multicast_interface", cot.multicast_interface, "its name; empty: the system chooses");
 }
 
 }  // namespace io
@@ -33,6 +49,7 @@ nlohmann::ordered_json estimation_to_json(const EstimationConfig& config) {
   auto json = io::geolocator_to_json(config.geolocator);
   json["mavlink"] = section_to_json(config.mavlink);
   json["frames"] = section_to_json(config.frames);
+  json["cot"] = section_to_json(config.cot);
   return json;
 }
 
@@ -40,6 +57,7 @@ std::vector<io::FieldLine> estimation_field_lines() {
   auto lines = io::geolocator_field_lines();
   list_section<io::MavlinkConfig>("mavlink", lines);
   list_section<FrameConfig>("frames", lines);
+  list_section<io::CotConfig>("cot", lines);
   return lines;
 }
 
@@ -49,13 +67,14 @@ void estimation_from_json(const nlohmann::json& document, const std::vector<std:
   if (document.is_object()) {
     read_section(document, "mavlink", config.mavlink, problems);
     read_section(document, "frames", config.frames, problems);
-    rest.erase("mavlink");
-    rest.erase("frames");
+    read_section(document, "cot", config.cot, problems);
+    for (const char* section : {"mavlink", "frames", "cot"}) rest.erase(section);
     for (const std::string& section : ignored_sections) rest.erase(section);
   }
   io::geolocator_from_json(rest, config.geolocator, problems);
-  const auto of_mavlink = config.mavlink.problems();
-  problems.insert(problems.end(), of_mavlink.begin(), of_mavlink.end());
+  for (const auto& found : {config.mavlink.problems(), config.cot.problems()}) {
+    problems.insert(problems.end(), found.begin(), found.end());
+  }
   if (!(config.frames.max_wait_s >= 0.0 && config.frames.max_wait_s <= 60.0)) {
     problems.emplace_back("frames.max_wait_s must lie in [0, 60]");
   }

@@ -7,6 +7,7 @@
 
 #include "geoloc/io/json/fields.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
+#include "geoloc/io/output/cot_config.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 
 namespace geoloc::apps {
@@ -20,6 +21,7 @@ struct EstimationConfig {
   GeolocatorConfig geolocator;
   io::MavlinkConfig mavlink;
   FrameConfig frames;
+  io::CotConfig cot;
 };
 
 /// Every setting with its present value; estimation_from_json() accepts it back.

@@ -40,13 +40,13 @@ void take_what_was_known(TelemetryFeed& feed, const io::RecordedFrame& frame, co
 }  // namespace
 
 void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& frames, Session& session,
-            const std::function<void(std::size_t)>& on_frame) {
+            const std::function<void(const PendingFrame& frame, bool is_located)>& on_frame) {
   TelemetryFeed feed(telemetry, session);
-  std::size_t done = 0;
   for (const io::RecordedFrame& frame : frames) {
     take_what_was_known(feed, frame, session);
-    session.process({frame.captured_at, frame.detections});
-    if (on_frame) on_frame(++done);
+    const PendingFrame pending{frame.captured_at, frame.detections};
+    const bool is_located = session.process(pending);
+    if (on_frame) on_frame(pending, is_located);
   }
   while (!feed.is_empty()) feed.take();  // a live run counts what comes after its last frame, too
 }

@@ -17,7 +17,8 @@ void append_bounded(std::vector<T>& entries, const T& entry, std::size_t capacit
 }  // namespace
 
 void RunHistory::note(const Geolocator& geolocator, HostTime captured_at) {
-  append_bounded(trajectory_, Eigen::Vector2d(geolocator.view().vehicle.enu_from_body.translation.head<2>()),
+  append_bounded(trajectory_,
+                 io::TrajectoryPoint{captured_at, geolocator.view().vehicle.enu_from_body.translation},
                  capacity_);
   for (const LocatedDetection& located : geolocator.located()) {
     append_bounded(

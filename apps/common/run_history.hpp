@@ -5,11 +5,12 @@
 #include <vector>
 
 #include "geoloc/io/output/raw_fixes.hpp"
+#include "geoloc/io/output/run_record.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
 
 namespace geoloc::apps {
 
-/// What the picture and the table of a run need of its past. Bounded: past its capacity every second entry is
+/// What files of a run need of its past. Bounded: past its capacity every second entry is
 /// forgotten, so that flights of hours stay drawable.
 class RunHistory {
  public:
@@ -19,12 +20,12 @@ class RunHistory {
   void note(const Geolocator& geolocator, HostTime captured_at);
 
   const std::vector<io::RawFix>& raw_fixes() const { return raw_fixes_; }
-  const std::vector<Eigen::Vector2d>& trajectory() const { return trajectory_; }
+  const std::vector<io::TrajectoryPoint>& trajectory() const { return trajectory_; }
 
  private:
   std::size_t capacity_;
   std::vector<io::RawFix> raw_fixes_;
-  std::vector<Eigen::Vector2d> trajectory_;
+  std::vector<io::TrajectoryPoint> trajectory_;
 };
 
 }  // namespace geoloc::apps

@@ -6,10 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "geoloc/io/atomic_file.hpp"
-#include "geoloc/io/output/geojson.hpp"
-#include "geoloc/io/output/raw_fixes.hpp"
-#include "geoloc/io/output/run_picture.hpp"
+#include "geoloc/io/output/text.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -22,13 +19,6 @@ std::vector<Eigen::Vector2d> in_enu(const std::vector<io::TrueTarget>& truth, co
     targets.push_back(geolocator.local_frame()->to_local(target.position).position_in_enu);
   }
   return targets;
-}
-
-std::vector<Eigen::Vector2d> positions(const std::vector<io::RawFix>& fixes) {
-  std::vector<Eigen::Vector2d> points;
-  points.reserve(fixes.size());
-  for (const io::RawFix& fix : fixes) points.push_back(fix.position_in_enu);
-  return points;
 }
 
 std::vector<Gaussian2> confirmed(const Session& session, const LeftOut& left_out) {
@@ -57,35 +47,22 @@ std::string unused_known_points(const Geolocator& geolocator) {
   return lines;
 }
 
-std::string picture_of(const Session& session, const std::vector<io::ObjectReport>& objects,
-                       const std::vector<io::TrueTarget>& truth, const std::string& title) {
-  io::RunPicture picture;
-  picture.title = title;
-  picture.subtitle = summarize(session, truth);
-  picture.targets = in_enu(truth, session.geolocator());
-  picture.raw_fixes = positions(session.history().raw_fixes());
-  picture.trajectory = session.history().trajectory();
-  picture.objects = objects;
-  return io::to_svg(picture);
-}
-
 }  // namespace
 
-void write_outputs(const OutputFiles& files, const Session& session,
-                   const std::vector<std::string>& class_names, const std::vector<io::TrueTarget>& truth,
-                   const std::string& title) {
+io::RunRecord record_run(const Session& session, const std::vector<std::string>& class_names,
+                         const std::vector<io::TrueTarget>& truth, const std::string& title) {
   const Geolocator& geolocator = session.geolocator();
-  const auto objects = io::report_objects(geolocator, class_names);
-  if (!files.objects.empty()) {
-    io::write_file_atomically(files.objects, io::objects_to_geojson(objects, geolocator));
-  }
-  if (!files.raw.empty()) {
-    const LocalFrame frame =
-        geolocator.local_frame().value_or(LocalFrame({0.0, 0.0}));  // no fixes without one
-    io::write_file_atomically(files.raw, io::raw_fixes_to_csv(session.history().raw_fixes(), frame));
-  }
-  if (!files.picture.empty())
-    io::write_file_atomically(files.picture, picture_of(session, objects, truth, title));
+  io::RunRecord run;
+  run.title = title;
+  run.summary = summarize(session, truth);
+  run.objects = io::report_objects(geolocator, class_names);
+  run.estimator = io::report_estimator(geolocator);
+  run.local_frame = geolocator.local_frame();
+  run.ground_height_above_home_m = geolocator.projector().config().ground_height_above_home_m;
+  run.raw_fixes = session.history().raw_fixes();
+  run.trajectory = session.history().trajectory();
+  run.targets = in_enu(truth, geolocator);
+  return run;
 }
 
 Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth, const LeftOut& left_out) {
@@ -125,9 +102,10 @@ std::string objects_to_table(const std::vector<io::ObjectReport>& objects) {
   std::string table = fmt::format("{:>5}  {:<16} {:>13} {:>14} {:>8} {:>6}  {}\n", "id", "class", "latitude",
                                   "longitude", "sigma m", "looks", "last seen (UTC)");
   for (const io::ObjectReport& object : objects) {
-    fmt::format_to(std::back_inserter(table), "{:>5}  {:<16.16} {:>13.7f} {:>14.7f} {:>8.2f} {:>6}  {}\n",
-                   object.id, object.class_name, object.position.latitude_deg, object.position.longitude_deg,
-                   object.ellipse.sigma_major_m, object.hits, io::iso8601(object.last_seen));
+    fmt::format_to(std::back_inserter(table), "{:>5}  {:<16} {:>13.7f} {:>14.7f} {:>8.2f} {:>6}  {}\n",
+                   object.id, io::clean_text(object.class_name, 16), object.position.latitude_deg,
+                   object.position.longitude_deg, object.ellipse.sigma_major_m, object.hits,
+                   io::iso8601(object.last_seen));
   }
   return table;
 }

@@ -7,21 +7,14 @@
 #include "common/session.hpp"
 #include "geoloc/evaluation/score.hpp"
 #include "geoloc/io/output/object_report.hpp"
+#include "geoloc/io/output/run_record.hpp"
 #include "geoloc/io/recording/recording.hpp"
 
 namespace geoloc::apps {
 
-/// Files that a run writes; empty names are left out.
-struct OutputFiles {
-  std::string objects;  ///< GeoJSON
-  std::string raw;      ///< CSV of every located detection
-  std::string picture;  ///< SVG
-};
-
-/// Writes each file whole or not at all. Throws std::runtime_error naming the file and the reason.
-void write_outputs(const OutputFiles& files, const Session& session,
-                   const std::vector<std::string>& class_names, const std::vector<io::TrueTarget>& truth,
-                   const std::string& title);
+/// The run so far, for files. `truth` may be empty.
+io::RunRecord record_run(const Session& session, const std::vector<std::string>& class_names,
+                         const std::vector<io::TrueTarget>& truth, const std::string& title);
 
 /// Objects that are not scored, by id: those whose places the run was told.
 using LeftOut = std::vector<std::uint64_t>;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <vector>
 
+#include "geoloc/io/mavlink/camera_component.hpp"
 #include "geoloc/io/mavlink/message_table.hpp"
 #include "geoloc/io/mavlink/vehicle_link.hpp"
 
@@ -60,7 +61,7 @@ Bytes checksummed_frame(std::uint8_t message_id, const std::uint8_t* payload, st
 
 /// Reads the input as a list of messages (which one, payload size, payload) and frames them.
 Bytes framed(const std::uint8_t* data, std::size_t size) {
-  constexpr std::uint8_t kDecoded[] = {0, 2, 24, 30, 31, 33, 77, 111, 193, 230};
+  constexpr std::uint8_t kDecoded[] = {0, 2, 24, 30, 31, 33, 76, 77, 111, 193, 230};
   Bytes stream = checksummed_frame(0, reinterpret_cast<const std::uint8_t*>("\0\0\0\0\2\3\0\4\3"), 9);
   for (std::size_t at = 0; at + 2 <= size;) {
     const std::uint8_t message_id = kDecoded[data[at] % std::size(kDecoded)];
@@ -72,13 +73,33 @@ Bytes framed(const std::uint8_t* data, std::size_t size) {
   return stream;
 }
 
+/// A camera of vehicle 1 with one object in view.
+io::CameraComponent camera_at(HostTime now) {
+  io::CameraComponent camera(105, CameraIntrinsics{});
+  io::CameraView view;
+  view.captured_at = now;
+  view.targets.push_back({7, {-22.9, -43.1}, 0.5, 20.0, Eigen::Vector2d(0.5, 0.5)});
+  camera.update(view);
+  camera.poll(now, io::MavAddress{1, 1}, true, [](const std::uint8_t*, std::size_t) {});
+  return camera;
+}
+
 void play(const Bytes& stream, std::size_t piece) {
   io::VehicleLink link{io::MavlinkConfig{}};
   DistrustfulSink sink;
   HostTime now{std::chrono::hours{24 * 365 * 57}};
+  io::CameraComponent camera = camera_at(now);
+  const auto check_sent = [](const std::uint8_t*, std::size_t sent) { require(sent >= 8 && sent <= 280); };
   for (std::size_t at = 0; at < stream.size(); at += piece) {
     link.consume(now, &stream[at], std::min(piece, stream.size() - at), sink);
-    link.poll(now, [](const std::uint8_t*, std::size_t sent) { require(sent >= 8 && sent <= 280); });
+    link.poll(now, check_sent);
+    camera.consume(&stream[at], std::min(piece, stream.size() - at));
+    int camera_frames = 0;
+    camera.poll(now, io::MavAddress{1, 1}, true, [&](const std::uint8_t* frame, std::size_t sent) {
+      check_sent(frame, sent);
+      ++camera_frames;
+    });
+    require(camera_frames <= 40);
     const auto mapped = link.clock().to_vehicle(now);
     require(!mapped || mapped->time_since_epoch() < 0ns || link.clock().to_host(*mapped) == now);
     now += 50ms;
@@ -90,8 +111,8 @@ void play(const Bytes& stream, std::size_t piece) {
 
 }  // namespace
 
-/// Framing, decoding, the link's state and its answers. The first byte sets the size of the pieces that the
-/// rest arrives in, and whether it is taken as it is or as messages to be framed.
+/// Framing, decoding, the link's state, its answers and those of a camera. The first byte sets the size of
+/// the pieces that the rest arrives in, and whether it is taken as it is or as messages to be framed.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   constexpr std::uint8_t kFramedFlag = 0x80;

@@ -74,4 +74,14 @@ void FieldReader::read(const nlohmann::json& json, const std::string& path, std:
   }
 }
 
+void FieldReader::read(const nlohmann::json& json, const std::string& path,
+                       std::map<std::string, std::string>& value) {
+  if (!json.is_object()) {
+    problems_.push_back(path + " must be an object of texts");
+    return;
+  }
+  value.clear();
+  for (const auto& [key, entry] : json.items()) read(entry, path + "." + key, value[key]);
+}
+
 }  // namespace geoloc::io

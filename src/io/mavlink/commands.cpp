@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/mavlink/commands.hpp"
 
-#include <all/mavlink.h>
-
+#include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "pack.hpp"
 
 namespace geoloc::io {
-namespace {
-
-template <typename Fields>
-using Encode = std::uint16_t (*)(std::uint8_t, std::uint8_t, mavlink_status_t*, mavlink_message_t*,
-                                 const Fields*);
-
-/// The generated encoders keep their state in a mavlink_status_t: here for one call, so that none of it is
-/// global.
-template <typename Fields>
-OutgoingFrame pack(MavAddress self, std::uint8_t sequence, bool use_v2, Encode<Fields> encode,
-                   const Fields& fields) {
-  mavlink_status_t status{};
-  status.flags = use_v2 ? 0 : MAVLINK_STATUS_FLAG_OUT_MAVLINK1;
-  status.current_tx_seq = sequence;
-  mavlink_message_t message{};
-  encode(self.system, self.component, &status, &message, &fields);
-  OutgoingFrame frame;
-  static_assert(sizeof frame.bytes >= MAVLINK_MAX_PACKET_LEN);
-  frame.size = mavlink_msg_to_send_buffer(frame.bytes.data(), &message);
-  return frame;
-}
-
-}  // namespace
 
 OutgoingFrame CommandWriter::heartbeat(MavAddress self) {
   mavlink_heartbeat_t fields{};
@@ -65,6 +44,13 @@ OutgoingFrame CommandWriter::timesync_request(MavAddress self, std::int64_t requ
   mavlink_timesync_t fields{};
   fields.ts1 = requester_ns;
   return pack(self, sequence_++, use_v2_, mavlink_msg_timesync_encode_status, fields);
+}
+
+OutgoingFrame CommandWriter::status_text(MavAddress self, const std::string& text) {
+  mavlink_statustext_t fields{};
+  fields.severity = MAV_SEVERITY_INFO;
+  std::memcpy(fields.text, text.data(), std::min(text.size(), sizeof fields.text));
+  return pack(self, sequence_++, use_v2_, mavlink_msg_statustext_encode_status, fields);
 }
 
 }  // namespace geoloc::io

@@ -16,6 +16,8 @@ std::vector<std::string> MavlinkConfig::problems() const {
                 "mavlink.position_rate_hz must lie in [1, 50]");
   found.require(link_timeout_s >= 0.5 && link_timeout_s <= 60.0,
                 "mavlink.link_timeout_s must lie in [0.5, 60]");
+  found.require(camera_component_id >= 100 && camera_component_id <= 105,
+                "mavlink.camera_component_id must lie in [100, 105]");
   return found.take();
 }
 

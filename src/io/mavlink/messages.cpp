@@ -141,4 +141,13 @@ Message decode(const Frame& frame) {
   }
 }
 
+std::optional<Command> decode_command(const Frame& frame) {
+  if (frame.message_id != MAVLINK_MSG_ID_COMMAND_LONG) return std::nullopt;
+  const auto fields = unpack(frame, mavlink_msg_command_long_decode);
+  return Command{fields.command,
+                 {fields.target_system, fields.target_component},
+                 {fields.param1, fields.param2, fields.param3, fields.param4, fields.param5, fields.param6,
+                  fields.param7}};
+}
+
 }  // namespace geoloc::io

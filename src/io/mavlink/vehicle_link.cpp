@@ -18,6 +18,8 @@ constexpr Duration kHeartbeatPeriod = 1s;
 constexpr Duration kFastTimesyncPeriod = 100ms;
 constexpr Duration kTimesyncPeriod = 1s;
 constexpr int kFastTimesyncs = 20;
+constexpr Duration kTextPeriod = 500ms;
+constexpr std::size_t kMostTexts = 20;  // waiting; more would be old news
 /// While ATTITUDE came less than this ago, ATTITUDE_QUATERNION says nothing new.
 constexpr Duration kEulerSilence = 1s;
 /// Recordings keep whole microseconds. The digits below say, in what a vehicle answers, that the question was
@@ -170,6 +172,18 @@ void VehicleLink::poll(HostTime now, const Send& send) {
   if (!is_alive(now)) return;
   send_timesync(now, send);
   send_requests(now, send);
+  send_text(now, send);
+}
+
+void VehicleLink::say(const std::string& text) {
+  if (texts_.size() < kMostTexts) texts_.push_back(text);
+}
+
+void VehicleLink::send_text(HostTime now, const Send& send) {
+  if (texts_.empty() || !is_due(last_text_, kTextPeriod, now)) return;
+  last_text_ = now;
+  send_frame(writer_.status_text(self(), texts_.front()), send);
+  texts_.pop_front();
 }
 
 void VehicleLink::send_timesync(HostTime now, const Send& send) {

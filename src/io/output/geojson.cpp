@@ -1,76 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/output/geojson.hpp"
 
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "geoloc/geometry/angles.hpp"
+#include "json_report.hpp"
 
 namespace geoloc::io {
 namespace {
 
 using nlohmann::ordered_json;
 
-/// Shortest decimal that reads back as the value to `digits` places, so that text stays short and stable.
-double decimals(double value, int digits) {
-  const double scale = std::pow(10.0, digits);
-  return std::round(value * scale) / scale;
-}
-
 ordered_json to_feature(const ObjectReport& object) {
   const ordered_json coordinates{decimals(object.position.longitude_deg, 9),
                                  decimals(object.position.latitude_deg, 9)};
   return {{"type", "Feature"},
           {"geometry", {{"type", "Point"}, {"coordinates", coordinates}}},
-          {"properties",
-           {{"id", object.id},
-            {"class_id", object.class_id},
-            {"class_name", object.class_name},
-            {"confidence", decimals(object.confidence, 3)},
-            {"hits", object.hits},
-            {"first_seen", iso8601(object.first_seen)},
-            {"last_seen", iso8601(object.last_seen)},
-            {"sigma_major_m", decimals(object.ellipse.sigma_major_m, 4)},
-            {"sigma_minor_m", decimals(object.ellipse.sigma_minor_m, 4)},
-            {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)}}}};
-}
-
-ordered_json to_counters(const Geolocator& geolocator) {
-  const auto& frames = geolocator.counters();
-  const auto telemetry = geolocator.state().counters();
-  const auto& tracks = geolocator.track_counters();
-  std::uint64_t without_fix = 0;
-  for (const std::uint64_t count : frames.no_fix) without_fix += count;
-  return {{"frames", frames.frames},
-          {"frames_located", frames.frames_located},
-          {"frames_unusable", frames.frames_unusable},
-          {"detections", frames.detections},
-          {"detections_without_fix", without_fix},
-          {"attitudes", telemetry.attitudes},
-          {"positions", telemetry.positions},
-          {"reboots", telemetry.reboots},
-          {"tracks_created", tracks.created},
-          {"tracks_removed", tracks.removed},
-          {"tracks_merged", tracks.merged}};
-}
-
-/// null for a method that learns none.
-ordered_json to_calibration(const std::optional<Calibration>& calibration) {
-  if (!calibration) return nullptr;
-  using Index = CalibrationIndex;
-  ordered_json json;
-  const auto add = [&](const char* name, int index, double scale, int digits) {
-    json[name] = {{"value", decimals(calibration->mean[index] * scale, digits)},
-                  {"sigma", decimals(calibration->sigma(index) * scale, digits)}};
-  };
-  add("boresight_x_deg", Index::kBoresight, kDegPerRad, 4);
-  add("boresight_y_deg", Index::kBoresight + 1, kDegPerRad, 4);
-  add("boresight_z_deg", Index::kBoresight + 2, kDegPerRad, 4);
-  add("latency_s", Index::kLatency, 1.0, 5);
-  add("height_offset_m", Index::kHeight, 1.0, 4);
-  add("offset_east_m", Index::kOffset, 1.0, 4);
-  add("offset_north_m", Index::kOffset + 1, 1.0, 4);
-  return json;
+          {"properties", properties_to_json(object)}};
 }
 
 const char* name_of(KnownPointStatus status) {
@@ -87,13 +30,11 @@ const char* name_of(KnownPointStatus status) {
   return "";
 }
 
-ordered_json to_references(const Geolocator& geolocator) {
+ordered_json to_references(const std::vector<ReferenceReport>& reports) {
   auto references = ordered_json::array();
-  const auto& entries = geolocator.known_points();
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    ordered_json reference{{"id", geolocator.config().known_points[i].name},
-                           {"status", name_of(entries[i].status)}};
-    if (entries[i].status == KnownPointStatus::kMatched) reference["object"] = entries[i].track_id;
+  for (const ReferenceReport& report : reports) {
+    ordered_json reference{{"id", report.name}, {"status", name_of(report.status)}};
+    if (report.status == KnownPointStatus::kMatched) reference["object"] = report.object_id;
     references.push_back(std::move(reference));
   }
   return references;
@@ -101,14 +42,16 @@ ordered_json to_references(const Geolocator& geolocator) {
 
 }  // namespace
 
-std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const Geolocator& geolocator) {
+std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const EstimatorReport& estimator) {
   auto features = ordered_json::array();
-  for (const ObjectReport& object : objects) features.push_back(to_feature(object));
+  for (const ObjectReport& object : objects) {
+    if (has_place(object)) features.push_back(to_feature(object));
+  }
   ordered_json collection{{"type", "FeatureCollection"},
-                          {"method", geolocator.calibration() ? "full" : "paper"},
-                          {"calibration", to_calibration(geolocator.calibration())},
-                          {"counters", to_counters(geolocator)}};
-  if (!geolocator.known_points().empty()) collection["references"] = to_references(geolocator);
+                          {"method", estimator.calibration ? "full" : "paper"},
+                          {"calibration", calibration_to_json(estimator.calibration)},
+                          {"counters", counters_to_json(estimator.counters)}};
+  if (!estimator.references.empty()) collection["references"] = to_references(estimator.references);
   collection["features"] = std::move(features);
   // Class names come from models and may hold anything; bytes that are not UTF-8 are replaced.
   return collection.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";

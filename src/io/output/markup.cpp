@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/output/markup.hpp"
 
+#include "geoloc/io/output/text.hpp"
+
 namespace geoloc::io {
 
 std::string escape_markup(const std::string& text) {
   std::string result;
-  for (const char character : text) {
+  for (const char character : clean_text(text)) {
     switch (character) {
       case '&':
         result += "&amp;";
@@ -19,8 +21,11 @@ std::string escape_markup(const std::string& text) {
       case '"':
         result += "&quot;";
         break;
+      case '\'':
+        result += "&#39;";
+        break;
       default:
-        if (static_cast<unsigned char>(character) >= 0x20) result += character;
+        result += character;
     }
   }
   return result;

@@ -23,26 +23,34 @@ ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance) {
 }
 
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
-                                         const std::vector<std::string>& class_names) {
+                                         const std::vector<std::string>& class_names, TrackStatus status) {
   std::vector<ObjectReport> reports;
   for (const Track& track : geolocator.tracks()) {
-    if (track.status != TrackStatus::kConfirmed) continue;
+    if (track.status != status) continue;
     ObjectReport report;
     report.id = track.id;
     report.class_id = track.class_id();
-    const auto name = static_cast<std::size_t>(report.class_id);
-    report.class_name =
-        name < class_names.size() ? class_names[name] : "class " + std::to_string(report.class_id);
+    report.class_name = class_name_of(report.class_id, class_names);
     report.confidence = track.confidence();
     report.hits = track.hits;
     report.first_seen = track.first_seen;
     report.last_seen = track.last_seen;
     report.position_in_enu = track.position_in_enu.mean;
     report.position = geolocator.local_frame()->to_geodetic(report.position_in_enu);
+    report.covariance_in_enu = track.position_in_enu.covariance;
     report.ellipse = error_ellipse(track.position_in_enu.covariance);
     reports.push_back(report);
   }
   return reports;
+}
+
+std::string class_name_of(int class_id, const std::vector<std::string>& class_names) {
+  const auto name = static_cast<std::size_t>(class_id);
+  return name < class_names.size() ? class_names[name] : "class " + std::to_string(class_id);
+}
+
+bool has_place(const ObjectReport& object) {
+  return is_valid(object.position) && object.position_in_enu.allFinite();
 }
 
 std::string iso8601(HostTime time) {

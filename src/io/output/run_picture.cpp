@@ -166,6 +166,18 @@ void draw_legend(const Map& map, const RunPicture& picture, std::string& svg) {
 
 }  // namespace
 
+RunPicture picture_of(const RunRecord& run) {
+  RunPicture picture;
+  picture.title = run.title;
+  picture.subtitle = run.summary;
+  picture.targets = run.targets;
+  for (const RawFix& fix : run.raw_fixes) picture.raw_fixes.push_back(fix.position_in_enu);
+  for (const TrajectoryPoint& point : run.trajectory)
+    picture.trajectory.push_back(point.position_in_enu.head<2>());
+  picture.objects = run.objects;
+  return picture;
+}
+
 std::string to_svg(const RunPicture& picture) {
   const Map map(area_of(picture));
   const double height_px = map.bottom() + kFooter_px;

@@ -115,6 +115,17 @@ Bytes FrameFactory::command_ack(std::uint16_t command, std::uint8_t result, MavA
   return pack(mavlink_msg_command_ack_encode_status, fields);
 }
 
+Bytes FrameFactory::command_long(std::uint16_t command, MavAddress target, float parameter1,
+                                 float parameter2) {
+  mavlink_command_long_t fields{};
+  fields.command = command;
+  fields.target_system = target.system;
+  fields.target_component = target.component;
+  fields.param1 = parameter1;
+  fields.param2 = parameter2;
+  return pack(mavlink_msg_command_long_encode_status, fields);
+}
+
 Bytes FrameFactory::unknown(std::uint8_t payload_size, std::uint8_t fill) {
   constexpr std::uint32_t kNoSuchMessage = 0xABCDEF;
   mavlink_message_t message{};

@@ -33,6 +33,7 @@ class FrameFactory {
   /// In the form of later dialects, which say whom it is for.
   Bytes timesync_to(MavAddress target, std::int64_t tc1, std::int64_t ts1);
   Bytes command_ack(std::uint16_t command, std::uint8_t result, MavAddress target = {});
+  Bytes command_long(std::uint16_t command, MavAddress target, float parameter1, float parameter2 = 0.0F);
   /// A message that no dialect knows: the checksum is right for a seed of 0.
   Bytes unknown(std::uint8_t payload_size, std::uint8_t fill);
 

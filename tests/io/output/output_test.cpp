@@ -49,8 +49,7 @@ TEST(Iso8601, IsUtcWithMilliseconds) {
 }
 
 TEST(GeoJson, HoldsTheFieldsOfTheFormat) {
-  const Geolocator geolocator{GeolocatorConfig{}};
-  const auto json = nlohmann::json::parse(objects_to_geojson({some_object()}, geolocator));
+  const auto json = nlohmann::json::parse(objects_to_geojson({some_object()}, {}));
   EXPECT_EQ(json["type"], "FeatureCollection");
   const auto& feature = json["features"].at(0);
   EXPECT_EQ(feature["geometry"]["type"], "Point");
@@ -65,10 +64,9 @@ TEST(GeoJson, HoldsTheFieldsOfTheFormat) {
 }
 
 TEST(GeoJson, HostileClassNamesStayText) {
-  const Geolocator geolocator{GeolocatorConfig{}};
   ObjectReport object = some_object();
   object.class_name = "\"]}\xff\x01<script>";
-  const auto json = nlohmann::json::parse(objects_to_geojson({object}, geolocator));
+  const auto json = nlohmann::json::parse(objects_to_geojson({object}, {}));
   EXPECT_NE(json["features"][0]["properties"]["class_name"].get<std::string>().find("<script>"),
             std::string::npos);
 }
@@ -107,6 +105,8 @@ TEST(AtomicFile, ReplacesTheOldContentOrLeavesIt) {
   input >> content;
   EXPECT_EQ(content, "new");
   EXPECT_THROW(write_file_atomically(folder.path() / "none" / "x", "new"), std::runtime_error);
+  EXPECT_THROW(write_file_atomically("/dev/full", "new"), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // not replaced
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);  // nothing left beside
 }
 

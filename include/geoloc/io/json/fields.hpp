@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
@@ -66,6 +67,7 @@ class FieldReader {
   void read(const nlohmann::json& json, const std::string& path, int& value);
   void read(const nlohmann::json& json, const std::string& path, bool& value);
   void read(const nlohmann::json& json, const std::string& path, std::string& value);
+  void read(const nlohmann::json& json, const std::string& path, std::map<std::string, std::string>& value);
 
   template <typename T, std::size_t N>
   void read(const nlohmann::json& json, const std::string& path, std::array<T, N>& values) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "geoloc/io/mavlink/frame.hpp"
 
@@ -34,6 +35,9 @@ class CommandWriter {
 
   /// TIMESYNC request: requester_ns comes back with the answer.
   OutgoingFrame timesync_request(MavAddress self, std::int64_t requester_ns);
+
+  /// STATUSTEXT for people, of which 50 characters of ASCII are said.
+  OutgoingFrame status_text(MavAddress self, const std::string& text);
 
  private:
   std::uint8_t sequence_ = 0;

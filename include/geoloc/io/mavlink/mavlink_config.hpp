@@ -12,6 +12,9 @@ struct MavlinkConfig {
   double attitude_rate_hz = 10.0;  ///< asked for, 1-50
   double position_rate_hz = 10.0;  ///< asked for, 1-50
   double link_timeout_s = 3.0;     ///< of silence; then the vehicle is asked anew for everything
+  bool camera = false;             ///< be a camera of the vehicle that tells where objects are
+  int camera_component_id = 105;   ///< 100-105 are cameras; the vehicle's own is mostly 100
+  bool status_text = false;        ///< tell ground stations of each object that is confirmed
 
   /// Every fault, named by its JSON path; empty where the settings can be used.
   std::vector<std::string> problems() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <variant>
@@ -57,6 +58,13 @@ struct CommandAck {
   MavAddress target;          ///< whose command it was, where the sender states it; else 0, 0
 };
 
+/// COMMAND_LONG: what somebody asks of a component.
+struct Command {
+  std::uint16_t command = 0;  ///< MAV_CMD
+  MavAddress target;          ///< a component of 0: all
+  std::array<float, 7> parameters{};
+};
+
 /// A message that geoloc has no use for.
 struct NotDecoded {};
 
@@ -69,5 +77,8 @@ using Message = std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessa
 /// Payloads that MAVLink 2 cut short are filled up with zeros. Positions (GLOBAL_POSITION_INT) come as they
 /// are: whether the vehicle knew where it was is for others to judge.
 Message decode(const Frame& frame);
+
+/// nullopt for any other message. What the parameters hold is not checked.
+std::optional<Command> decode_command(const Frame& frame);
 
 }  // namespace geoloc::io

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/io/mavlink/commands.hpp"
@@ -42,6 +44,9 @@ class VehicleLink {
   /// To be called often (10 times a second or more): sends what is due. Silent until a vehicle is known.
   void poll(HostTime now, const Send& send);
 
+  /// A line for the people at the ground stations (STATUSTEXT), at most two a second.
+  void say(const std::string& text);
+
   const VehicleClockMap& clock() const { return clock_; }
   LinkStatus status(HostTime now) const;
 
@@ -70,6 +75,7 @@ class VehicleLink {
   void ask_anew(HostTime now);
   void send_timesync(HostTime now, const Send& send);
   void send_requests(HostTime now, const Send& send);
+  void send_text(HostTime now, const Send& send);
   MavAddress self() const;
   bool is_for_us(MavAddress target) const;
   bool is_alive(HostTime now) const;
@@ -94,6 +100,8 @@ class VehicleLink {
   CommandWriter writer_;
   std::optional<HostTime> last_heartbeat_;
   std::optional<HostTime> last_timesync_;
+  std::deque<std::string> texts_;
+  std::optional<HostTime> last_text_;
   int fast_timesyncs_ = 0;
 };
 

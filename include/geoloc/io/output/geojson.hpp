@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "geoloc/io/output/estimator_report.hpp"
 #include "geoloc/io/output/object_report.hpp"
 
 namespace geoloc::io {
 
 /// The FeatureCollection of docs/formats.md (RFC 7946): a Point an object, and the run's method and counters.
-std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const Geolocator& geolocator);
+std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const EstimatorReport& estimator);
 
 }  // namespace geoloc::io

@@ -5,7 +5,7 @@
 
 namespace geoloc::io {
 
-/// Text for XML 1.0 and HTML: markup is escaped, control characters are left out.
+/// Text for XML 1.0 and HTML, content or attribute: clean_text() with its markup escaped.
 std::string escape_markup(const std::string& text);
 
 }  // namespace geoloc::io

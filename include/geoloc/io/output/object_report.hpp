@@ -20,7 +20,7 @@ struct ErrorEllipse {
 
 ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance);
 
-/// What every output says of a confirmed object.
+/// What every output says of an object.
 struct ObjectReport {
   std::uint64_t id = 0;
   int class_id = 0;
@@ -31,12 +31,20 @@ struct ObjectReport {
   HostTime last_seen;
   Geodetic position;
   Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d covariance_in_enu = Eigen::Matrix2d::Zero();  ///< east, north [m^2]
   ErrorEllipse ellipse;
 };
 
-/// The confirmed objects in order of their ids. A class without a name is called by its number.
+/// The objects of that status in order of their ids.
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
-                                         const std::vector<std::string>& class_names);
+                                         const std::vector<std::string>& class_names,
+                                         TrackStatus status = TrackStatus::kConfirmed);
+
+/// A class without a name is called by its number.
+std::string class_name_of(int class_id, const std::vector<std::string>& class_names);
+
+/// Whether its position is finite and on the globe; an object without one is in no output.
+bool has_place(const ObjectReport& object);
 
 /// UTC, ISO 8601 with milliseconds: 2026-11-22T09:30:00.123Z.
 std::string iso8601(HostTime time);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geoloc/io/output/object_report.hpp"
+#include "geoloc/io/output/run_record.hpp"
 
 namespace geoloc::io {
 
@@ -18,6 +19,8 @@ struct RunPicture {
   std::vector<Eigen::Vector2d> trajectory;
   std::vector<ObjectReport> objects;
 };
+
+RunPicture picture_of(const RunRecord& run);
 
 /// A self-contained SVG document: metric grid, trajectory, raw fixes, targets, objects with 2-sigma ellipses,
 /// legend. Texts are escaped. What is not finite is left out.

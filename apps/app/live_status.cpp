@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_status.hpp"
+
+#include <algorithm>
+
+namespace geoloc::apps {
+namespace {
+
+constexpr double kSilence_s = 3.0;
+
+bool is_silent(const std::optional<Duration>& since) {
+  return !since || seconds(*since) > kSilence_s;
+}
+
+std::string link_message(const io::LinkStatus& link) {
+  if (!link.vehicle) return "waiting for a vehicle: no MAVLink heartbeat of an autopilot yet";
+  const std::string name = "vehicle " + std::to_string(link.vehicle->system);
+  if (is_silent(link.since_attitude)) return name + ": no attitude comes; frames cannot be located";
+  if (is_silent(link.since_position))
+    return name + ": no position comes (no fix yet?); frames cannot be located";
+  return name + ": telemetry comes";
+}
+
+std::string video_message(const io::VideoStatus& video) {
+  switch (video.state) {
+    case io::VideoState::kConnecting:
+      return "video: connecting";
+    case io::VideoState::kPlaying:
+      return "video: frames come";
+    case io::VideoState::kRetrying:
+      return "video: trying again: " + video.last_error;
+    case io::VideoState::kEnded:
+      return video.last_error.empty() ? "video: ended" : "video: ended: " + video.last_error;
+  }
+  return {};
+}
+
+}  // namespace
+
+io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& session,
+                           const io::VideoSource& video, const DetectionWorker& worker, const LiveRun& run) {
+  const io::LinkStatus link = session.link().status(now);
+  const io::VideoStatus stream = video.status();
+  const DetectionWorker::Stats detection = worker.stats();
+  const auto& tracks = session.geolocator().tracks();
+  io::LiveStatus status;
+  status.at = now;
+  status.elapsed = now - started_at;
+  status.link = link_message(link);
+  status.link_is_good = !is_silent(link.since_attitude) && !is_silent(link.since_position);
+  status.attitude_rate_hz = link.attitude_rate_hz;
+  status.position_rate_hz = link.position_rate_hz;
+  status.video = video_message(stream);
+  status.video_is_good = stream.state == io::VideoState::kPlaying;
+  status.video_state = to_string(stream.state);
+  status.video_rate_hz = stream.frames_per_second;
+  status.frame_time = to_string(run.stats().time_quality);
+  status.warning = detection.wrong_size_message;
+  status.detect_ms = detection.detect_ms.value();
+  status.latency_ms = 1e3 * run.stats().latency_s.value();
+  status.frames = session.frames();
+  status.frames_unusable = session.frames_unusable();
+  status.objects =
+      static_cast<std::uint64_t>(std::count_if(tracks.begin(), tracks.end(), [](const Track& track) {
+        return track.status == TrackStatus::kConfirmed;
+      }));
+  status.tentative = tracks.size() - status.objects;
+  return status;
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/detection_worker.hpp"
+#include "app/live_run.hpp"
+#include "common/session.hpp"
+#include "geoloc/io/output/live_status.hpp"
+#include "geoloc/io/video/video_source.hpp"
+
+namespace geoloc::apps {
+
+/// How the run is doing now.
+io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& session,
+                           const io::VideoSource& video, const DetectionWorker& worker, const LiveRun& run);
+
+}  // namespace geoloc::apps

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "geoloc/io/output/cot_config.hpp"
+
+namespace geoloc::io {
+
+enum class CotTransport { kUdp, kTcp };
+
+struct CotEndpoint {
+  CotTransport transport = CotTransport::kUdp;
+  std::string host;
+  std::string port;
+};
+
+/// "udp://HOST:PORT" or "tcp://HOST:PORT"; an IPv6 address in brackets. Throws std::invalid_argument that
+/// shows the text.
+CotEndpoint parse_cot_endpoint(const std::string& text);
+
+/// A way to TAK clients (UDP, to one or to a multicast group) or to a TAK server (TCP). Apart from looking up
+/// a name no call waits for the network. What cannot be reached is tried again, after 1 s, then less and less
+/// often down to every 30 s; so is a server that takes nothing for 10 s.
+class CotConnection {
+ public:
+  using Clock = std::chrono::steady_clock;
+  using Tell = std::function<void(const std::string& message)>;
+
+  struct Counts {
+    std::uint64_t sent = 0;    ///< events given to the network
+    std::uint64_t failed = 0;  ///< events that it refused
+    std::uint64_t connections = 0;
+  };
+
+  CotConnection(CotEndpoint endpoint, const CotConfig& config, Tell tell);
+  ~CotConnection();
+  CotConnection(const CotConnection&) = delete;
+  CotConnection& operator=(const CotConnection&) = delete;
+
+  /// Connects, sends and receives as far as that goes now. To be called often.
+  void poll(Clock::time_point now);
+
+  /// An event can be taken now.
+  bool is_ready() const;
+
+  /// Only while is_ready().
+  void send(const std::string& event);
+
+  /// Waits until everything is sent, or `timeout`. True where it is.
+  bool flush(std::chrono::milliseconds timeout);
+
+  const Counts& counts() const { return counts_; }
+  int descriptor() const { return descriptor_; }  ///< -1 while there is none
+
+ private:
+  void open(Clock::time_point now);
+  void finish_connecting(Clock::time_point now);
+  void set_multicast(int family) const;
+  void write_pending(Clock::time_point now);
+  void discard_received(Clock::time_point now);
+  void fail(Clock::time_point now, const std::string& reason);
+  std::string name() const;
+
+  CotEndpoint endpoint_;
+  CotConfig config_;
+  Tell tell_;
+  int descriptor_ = -1;
+  bool is_connecting_ = false;
+  std::string pending_;  // TCP: not taken by the system yet
+  Clock::time_point moved_at_{};
+  Clock::time_point next_attempt_{};
+  std::chrono::seconds backoff_{1};
+  bool has_told_ = false;  // that it is out of reach
+  Counts counts_;
+};
+
+}  // namespace geoloc::io

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/io/output/cot_config.hpp"
+#include "geoloc/io/output/cot_connection.hpp"
+#include "geoloc/io/output/geoid.hpp"
+#include "geoloc/io/output/sink.hpp"
+
+namespace geoloc::io {
+
+/// Confirmed objects as Cursor on Target events: at once, again every cot.period_s and at the end of the run;
+/// one that is gone is sent once more, out of date. An object's uid is `prefix.run.id`, where `run` is the
+/// time of the run's first frame: it stays the same in a replay and is never another object's.
+class CotSink final : public Sink {
+ public:
+  CotSink(std::string target, const CotConfig& config, const CotConnection::Tell& tell);
+
+  std::string name() const override { return "--cot " + target_; }
+  void on_frame(const OutputFrame& frame) override;
+  void on_status(const LiveStatus& status) override;
+  void on_run(const RunRecord& run) override;
+  void on_end() override;
+
+  const CotConnection& connection() const { return connection_; }
+
+ private:
+  struct Told {
+    ObjectReport object;
+    CotConnection::Clock::time_point at;
+  };
+
+  void send_due();
+  void send(const ObjectReport& object, bool is_gone);
+
+  std::string target_;
+  CotConfig config_;
+  Geoid geoid_;
+  CotConnection connection_;
+  std::string run_;  // of the uid
+  std::vector<ObjectReport> objects_;
+  std::optional<double> ground_height_msl_m_;
+  std::map<std::uint64_t, Told> told_;  // by the object's id
+  std::uint64_t connections_ = 0;       // when told_ began
+};
+
+}  // namespace geoloc::io

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/calibration/calibration.hpp"
+#include "geoloc/calibration/known_points.hpp"
+#include "geoloc/pipeline/geolocator.hpp"
+
+namespace geoloc::io {
+
+/// What went in since the start, and what became of it.
+struct RunCounters {
+  std::uint64_t frames = 0;
+  std::uint64_t frames_located = 0;
+  std::uint64_t frames_unusable = 0;
+  std::uint64_t detections = 0;  ///< in located frames
+  std::uint64_t detections_without_fix = 0;
+  std::uint64_t attitudes = 0;
+  std::uint64_t positions = 0;
+  std::uint64_t reboots = 0;
+  std::uint64_t tracks_created = 0;
+  std::uint64_t tracks_removed = 0;
+  std::uint64_t tracks_merged = 0;
+};
+
+/// What became of a known point.
+struct ReferenceReport {
+  std::string name;
+  KnownPointStatus status = KnownPointStatus::kNotCovered;
+  std::uint64_t object_id = 0;  ///< of a matched one
+};
+
+/// What the estimator says of itself, apart from the objects.
+struct EstimatorReport {
+  std::optional<Calibration> calibration;  ///< nullopt for a method that learns none
+  RunCounters counters;
+  std::vector<ReferenceReport> references;  ///< in the order of the configuration
+};
+
+EstimatorReport report_estimator(const Geolocator& geolocator);
+
+}  // namespace geoloc::io

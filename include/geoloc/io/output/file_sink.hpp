@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+
+#include "geoloc/io/atomic_file.hpp"
+#include "geoloc/io/output/sink.hpp"
+
+namespace geoloc::io {
+
+/// A file that holds the whole run so far, and is there whole or not at all.
+class FileSink final : public Sink {
+ public:
+  using Render = std::function<std::string(const RunRecord&)>;
+
+  FileSink(std::string option, std::filesystem::path file, Render render)
+      : option_(std::move(option)), file_(std::move(file)), render_(std::move(render)) {}
+
+  std::string name() const override { return option_ + " " + file_.string(); }
+  bool wants_frames() const override { return false; }
+  void on_run(const RunRecord& run) override { write_file_atomically(file_, render_(run)); }
+
+ private:
+  std::string option_;
+  std::filesystem::path file_;
+  Render render_;
+};
+
+}  // namespace geoloc::io

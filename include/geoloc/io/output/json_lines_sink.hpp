@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "geoloc/io/output/json_lines.hpp"
+#include "geoloc/io/output/sink.hpp"
+
+namespace geoloc::io {
+
+/// JSON Lines to standard output ("-"), to a pipe or device, or to a file, which is called FILE.partial until
+/// it is whole. After a write that failed nothing more is written: half a line would spoil the next.
+class JsonLinesSink final : public Sink {
+ public:
+  explicit JsonLinesSink(std::string target);
+  ~JsonLinesSink() override;
+  JsonLinesSink(const JsonLinesSink&) = delete;
+  JsonLinesSink& operator=(const JsonLinesSink&) = delete;
+
+  std::string name() const override { return "--jsonl " + target_; }
+  void on_frame(const OutputFrame& frame) override { write(lines_.frame(frame)); }
+  void on_status(const LiveStatus& status) override { write(JsonLines::status(status)); }
+  void on_run(const RunRecord& run) override { last_lines_ = JsonLines::end(run); }
+  void on_end() override;
+
+ private:
+  void open();
+  void write(const std::string& lines);
+  [[noreturn]] void fail(int error);
+
+  std::string target_;
+  std::string partial_;  // the file's name while it is written; empty for streams
+  int descriptor_ = -1;
+  bool has_failed_ = false;
+  JsonLines lines_;
+  std::string last_lines_;
+};
+
+}  // namespace geoloc::io

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "geoloc/geometry/time.hpp"
+
+namespace geoloc::io {
+
+/// How a live run is doing at one moment, in words and figures for people.
+struct LiveStatus {
+  HostTime at;
+  Duration elapsed{};  ///< since the program began
+  std::string link;    ///< "vehicle 1: telemetry comes"
+  bool link_is_good = false;
+  double attitude_rate_hz = 0.0;
+  double position_rate_hz = 0.0;
+  std::string video;  ///< "video: frames come"
+  bool video_is_good = false;
+  std::string video_state;  ///< one word
+  double video_rate_hz = 0.0;
+  std::string frame_time;   ///< how frames are timed: "recovered", "arrival"
+  std::string warning;      ///< what is wrong with the frames, or empty
+  double detect_ms = 0.0;   ///< of one frame, mean
+  double latency_ms = 0.0;  ///< from capture to result, mean
+  std::uint64_t frames = 0;
+  std::uint64_t frames_unusable = 0;  ///< without vehicle state
+  std::uint64_t objects = 0;          ///< confirmed
+  std::uint64_t tentative = 0;
+};
+
+}  // namespace geoloc::io

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/camera/detection.hpp"
+#include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/geometry/rigid3.hpp"
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/io/output/estimator_report.hpp"
+#include "geoloc/io/output/object_report.hpp"
+
+// What the estimator knew after a frame, as plain values: whoever gets one may keep it for as long as it
+// likes.
+namespace geoloc::io {
+
+/// A point of the ground plane.
+struct GroundPoint {
+  Geodetic position;
+  Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();  ///< [m]
+};
+
+/// From where a frame was seen.
+struct ViewReport {
+  Geodetic vehicle;
+  Eigen::Vector3d vehicle_in_enu = Eigen::Vector3d::Zero();  ///< [m], up is the height above home
+  double roll_deg = 0.0;
+  double pitch_deg = 0.0;
+  double yaw_deg = 0.0;     ///< from true north
+  Rigid3d enu_from_camera;  ///< calibration applied
+  /// Of the image's corners, clockwise from its top left; nullopt where one of them does not meet the ground.
+  std::optional<std::array<GroundPoint, 4>> footprint;
+  std::optional<GroundPoint> image_centre;
+};
+
+/// One detection of the frame with its place, before any tracking.
+struct FixReport {
+  Detection detection;
+  GroundPoint ground;
+  double range_m = 0.0;  ///< from the camera
+};
+
+struct OutputFrame {
+  HostTime captured_at;
+  std::vector<Detection> detections;  ///< all of the frame
+  std::optional<ViewReport> view;  ///< nullopt where the vehicle's state was not known: nothing was located
+  std::vector<FixReport> fixes;    ///< of the detections that met the ground
+  std::vector<ObjectReport> objects;  ///< confirmed, in order of their ids
+  std::vector<ObjectReport> tentative;
+  EstimatorReport estimator;
+  /// The plane that objects lie on, above mean sea level: home as the autopilot has it. Metres off on real
+  /// vehicles. nullopt before the first position.
+  std::optional<double> ground_height_msl_m;
+};
+
+/// `is_located`: what Geolocator::process() answered for this frame.
+OutputFrame report_frame(const Geolocator& geolocator, bool is_located, HostTime captured_at,
+                         const std::vector<Detection>& detections,
+                         const std::vector<std::string>& class_names);
+
+}  // namespace geoloc::io

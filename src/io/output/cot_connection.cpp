@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/output/cot_connection.hpp"
+
+#include <net/if.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <memory>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+namespace geoloc::io {
+namespace {
+
+constexpr std::size_t kMostPending = 256 * 1024;  // bytes
+constexpr auto kStallLimit = std::chrono::seconds{10};
+constexpr auto kLongestBackoff = std::chrono::seconds{30};
+
+using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
+
+std::string reason_of(int error) {
+  return std::generic_category().message(error);
+}
+
+bool is_multicast(const sockaddr& address) {
+  if (address.sa_family == AF_INET6)
+    return IN6_IS_ADDR_MULTICAST(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr) != 0;
+  return IN_MULTICAST(ntohl(reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr));
+}
+
+bool would_block(int error) {
+  return error == EAGAIN || error == EWOULDBLOCK || error == EINTR;
+}
+
+}  // namespace
+
+CotConnection::CotConnection(CotEndpoint endpoint, const CotConfig& config, Tell tell)
+    : endpoint_(std::move(endpoint)), config_(config), tell_(std::move(tell)) {}
+
+CotConnection::~CotConnection() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+std::string CotConnection::name() const {
+  return std::string("--cot ") + (endpoint_.transport == CotTransport::kTcp ? "tcp" : "udp") + "://" +
+         endpoint_.host + ":" + endpoint_.port;
+}
+
+void CotConnection::fail(Clock::time_point now, const std::string& reason) {
+  if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
+  is_connecting_ = false;
+  pending_.clear();  // a new connection must not begin in the middle of an event
+  next_attempt_ = now + backoff_;
+  backoff_ = std::min(2 * backoff_, kLongestBackoff);
+  if (!std::exchange(has_told_, true)) tell_(name() + ": " + reason + "; trying again");
+}
+
+void CotConnection::set_multicast(int family) const {
+  const int ttl = config_.multicast_ttl;
+  const unsigned index =
+      config_.multicast_interface.empty() ? 0 : if_nametoindex(config_.multicast_interface.c_str());
+  if (family == AF_INET6) {
+    setsockopt(descriptor_, IPPROTO_IPV6, IPV6_MULTICAST_HOPS, &ttl, sizeof ttl);
+    setsockopt(descriptor_, IPPROTO_IPV6, IPV6_MULTICAST_IF, &index, sizeof index);
+    return;
+  }
+  ip_mreqn interface {};
+  interface.imr_ifindex = static_cast<int>(index);
+  setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
+  if (index != 0) setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface);
+}
+
+void CotConnection::open(Clock::time_point now) {
+  const bool is_tcp = endpoint_.transport == CotTransport::kTcp;
+  addrinfo hints{};
+  hints.ai_socktype = is_tcp ? SOCK_STREAM : SOCK_DGRAM;
+  hints.ai_flags = AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  const int status = getaddrinfo(endpoint_.host.c_str(), endpoint_.port.c_str(), &hints, &found);
+  if (status != 0) return fail(now, gai_strerror(status));
+  const AddressList address(found, &freeaddrinfo);
+  if (is_multicast(*address->ai_addr) && !config_.multicast_interface.empty() &&
+      if_nametoindex(config_.multicast_interface.c_str()) == 0)
+    return fail(now, "there is no interface " + config_.multicast_interface);
+  descriptor_ = socket(address->ai_family, hints.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (descriptor_ < 0) return fail(now, reason_of(errno));
+  if (is_multicast(*address->ai_addr)) set_multicast(address->ai_family);
+  moved_at_ = now;
+  is_connecting_ = true;
+  if (connect(descriptor_, address->ai_addr, address->ai_addrlen) == 0) return finish_connecting(now);
+  if (errno != EINPROGRESS) fail(now, reason_of(errno));
+}
+
+void CotConnection::finish_connecting(Clock::time_point now) {
+  int error = 0;
+  socklen_t size = sizeof error;
+  getsockopt(descriptor_, SOL_SOCKET, SO_ERROR, &error, &size);
+  if (error != 0) return fail(now, reason_of(error));
+  is_connecting_ = false;
+  moved_at_ = now;
+  ++counts_.connections;
+  if (std::exchange(has_told_, false)) tell_(name() + ": connected");
+}
+
+/// A server may send events of others; unread, they would fill its side up.
+void CotConnection::discard_received(Clock::time_point now) {
+  std::array<char, 4096> ignored;
+  for (int i = 0; i < 64; ++i) {
+    const ssize_t size = recv(descriptor_, ignored.data(), ignored.size(), MSG_DONTWAIT);
+    const bool is_tcp = endpoint_.transport == CotTransport::kTcp;
+    if (size == 0 && is_tcp) return fail(now, "the server closed the connection");
+    if (size < 0 && would_block(errno)) return;
+    if (size < 0 && is_tcp) return fail(now, reason_of(errno));
+    if (size < 0) ++counts_.failed;  // UDP: nobody listens there
+  }
+}
+
+void CotConnection::write_pending(Clock::time_point now) {
+  while (!pending_.empty()) {
+    const ssize_t size = ::send(descriptor_, pending_.data(), pending_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (size < 0 && would_block(errno)) break;
+    if (size < 0) return fail(now, reason_of(errno));
+    pending_.erase(0, static_cast<std::size_t>(size));
+    moved_at_ = now;
+  }
+  if (pending_.empty()) {
+    moved_at_ = now;
+    backoff_ = std::chrono::seconds{1};
+  }
+}
+
+void CotConnection::poll(Clock::time_point now) {
+  if (descriptor_ < 0) {
+    if (now >= next_attempt_) open(now);
+  }
+  if (descriptor_ >= 0 && is_connecting_) {
+    pollfd waiting{descriptor_, POLLOUT, 0};
+    if (::poll(&waiting, 1, 0) > 0) finish_connecting(now);
+  }
+  if (descriptor_ >= 0 && !is_connecting_) discard_received(now);
+  if (descriptor_ >= 0 && !is_connecting_) write_pending(now);
+  if (descriptor_ >= 0 && now - moved_at_ > kStallLimit) fail(now, "no answer");
+}
+
+bool CotConnection::is_ready() const {
+  return descriptor_ >= 0 && !is_connecting_ && pending_.size() < kMostPending;
+}
+
+void CotConnection::send(const std::string& event) {
+  if (!is_ready()) return;
+  if (endpoint_.transport == CotTransport::kTcp) {
+    pending_ += event;
+    ++counts_.sent;
+    return write_pending(Clock::now());
+  }
+  const ssize_t size = ::send(descriptor_, event.data(), event.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  ++(size == static_cast<ssize_t>(event.size()) ? counts_.sent : counts_.failed);
+}
+
+bool CotConnection::flush(std::chrono::milliseconds timeout) {
+  const auto deadline = Clock::now() + timeout;
+  while (true) {
+    poll(Clock::now());
+    if (descriptor_ >= 0 && !is_connecting_ && pending_.empty()) return true;
+    if (Clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/output/cot_event.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "geoloc/io/output/circular_error.hpp"
+#include "geoloc/io/output/markup.hpp"
+#include "geoloc/io/output/text.hpp"
+
+namespace geoloc::io {
+namespace {
+
+constexpr double kUnknown = 9999999.0;  // the protocol's word for it
+constexpr std::size_t kLongestName = 32;
+
+double known_or(double value, double otherwise) {
+  return std::isfinite(value) ? value : otherwise;
+}
+
+std::string type_of(const ObjectReport& object, const CotConfig& config) {
+  const auto found = config.types.find(object.class_name);
+  return found != config.types.end() ? found->second : config.type;
+}
+
+std::string remarks(const ObjectReport& object, const CotContext& context) {
+  std::string text = fmt::format(
+      "confidence {:.3f}, {} looks, 1 sigma {:.2f} m x {:.2f} m towards {:.0f} deg", object.confidence,
+      object.hits, object.ellipse.sigma_major_m, object.ellipse.sigma_minor_m, object.ellipse.azimuth_deg);
+  if (context.height_msl_m) text += fmt::format(", {:.1f} m above mean sea level", *context.height_msl_m);
+  return text;
+}
+
+}  // namespace
+
+std::string to_cot(const ObjectReport& object, const CotContext& context, const CotConfig& config) {
+  const double p = config.error_probability;
+  const double ce = circular_error(object.ellipse.sigma_major_m, object.ellipse.sigma_minor_m, p);
+  const double le = context.height_ellipsoid_m ? circular_error(config.sigma_height_m, 0.0, p) : kUnknown;
+  const std::string name = escape_markup(clean_text(object.class_name, kLongestName));
+  const HostTime stale_at =
+      context.sent_at + (context.is_gone ? Duration::zero() : from_seconds(config.stale_s));
+  return fmt::format(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n"
+      "<event version=\"2.0\" uid=\"{}\" type=\"{}\" how=\"m-f\" time=\"{}\" start=\"{}\" stale=\"{}\">"
+      "<point lat=\"{:.8f}\" lon=\"{:.8f}\" hae=\"{:.2f}\" ce=\"{:.2f}\" le=\"{:.2f}\"/>"
+      "<detail><contact callsign=\"{} {}\"/><precisionlocation geopointsrc=\"Calculated\" altsrc=\"{}\"/>"
+      "<remarks>{}</remarks></detail></event>\n",
+      escape_markup(context.uid), type_of(object, config), iso8601(context.sent_at),
+      iso8601(std::min(object.last_seen, context.sent_at)), iso8601(stale_at), object.position.latitude_deg,
+      object.position.longitude_deg, context.height_ellipsoid_m.value_or(kUnknown), known_or(ce, kUnknown),
+      le, name, object.id, context.height_ellipsoid_m ? "Calculated" : "???", remarks(object, context));
+}
+
+}  // namespace geoloc::io

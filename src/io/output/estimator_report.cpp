@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/output/estimator_report.hpp"
+
+#include <numeric>
+
+namespace geoloc::io {
+namespace {
+
+RunCounters counters_of(const Geolocator& geolocator) {
+  const auto& frames = geolocator.counters();
+  const auto telemetry = geolocator.state().counters();
+  const auto& tracks = geolocator.track_counters();
+  RunCounters counters;
+  counters.frames = frames.frames;
+  counters.frames_located = frames.frames_located;
+  counters.frames_unusable = frames.frames_unusable;
+  counters.detections = frames.detections;
+  counters.detections_without_fix =
+      std::accumulate(frames.no_fix.begin(), frames.no_fix.end(), std::uint64_t{0});
+  counters.attitudes = telemetry.attitudes;
+  counters.positions = telemetry.positions;
+  counters.reboots = telemetry.reboots;
+  counters.tracks_created = tracks.created;
+  counters.tracks_removed = tracks.removed;
+  counters.tracks_merged = tracks.merged;
+  return counters;
+}
+
+}  // namespace
+
+EstimatorReport report_estimator(const Geolocator& geolocator) {
+  EstimatorReport report;
+  report.calibration = geolocator.calibration();
+  report.counters = counters_of(geolocator);
+  const auto& entries = geolocator.known_points();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    report.references.push_back(
+        {geolocator.config().known_points[i].name, entries[i].status, entries[i].track_id});
+  }
+  return report;
+}
+
+}  // namespace geoloc::io

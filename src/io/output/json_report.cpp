@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "json_report.hpp"
+
+#include <cmath>
+
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc::io {
+
+using nlohmann::ordered_json;
+
+double decimals(double value, int digits) {
+  const double scale = std::pow(10.0, digits);
+  return std::round(value * scale) / scale;
+}
+
+ordered_json properties_to_json(const ObjectReport& object) {
+  return {{"id", object.id},
+          {"class_id", object.class_id},
+          {"class_name", object.class_name},
+          {"confidence", decimals(object.confidence, 3)},
+          {"hits", object.hits},
+          {"first_seen", iso8601(object.first_seen)},
+          {"last_seen", iso8601(object.last_seen)},
+          {"sigma_major_m", decimals(object.ellipse.sigma_major_m, 4)},
+          {"sigma_minor_m", decimals(object.ellipse.sigma_minor_m, 4)},
+          {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)}};
+}
+
+ordered_json counters_to_json(const RunCounters& counters) {
+  return {{"frames", counters.frames},
+          {"frames_located", counters.frames_located},
+          {"frames_unusable", counters.frames_unusable},
+          {"detections", counters.detections},
+          {"detections_without_fix", counters.detections_without_fix},
+          {"attitudes", counters.attitudes},
+          {"positions", counters.positions},
+          {"reboots", counters.reboots},
+          {"tracks_created", counters.tracks_created},
+          {"tracks_removed", counters.tracks_removed},
+          {"tracks_merged", counters.tracks_merged}};
+}
+
+ordered_json calibration_to_json(const std::optional<Calibration>& calibration) {
+  if (!calibration) return nullptr;
+  using Index = CalibrationIndex;
+  ordered_json json;
+  const auto add = [&](const char* name, int index, double scale, int digits) {
+    json[name] = {{"value", decimals(calibration->mean[index] * scale, digits)},
+                  {"sigma", decimals(calibration->sigma(index) * scale, digits)}};
+  };
+  add("boresight_x_deg", Index::kBoresight, kDegPerRad, 4);
+  add("boresight_y_deg", Index::kBoresight + 1, kDegPerRad, 4);
+  add("boresight_z_deg", Index::kBoresight + 2, kDegPerRad, 4);
+  add("latency_s", Index::kLatency, 1.0, 5);
+  add("height_offset_m", Index::kHeight, 1.0, 4);
+  add("offset_east_m", Index::kOffset, 1.0, 4);
+  add("offset_north_m", Index::kOffset + 1, 1.0, 4);
+  return json;
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "geoloc/io/output/estimator_report.hpp"
+#include "geoloc/io/output/object_report.hpp"
+
+// What GeoJSON and JSON Lines have in common.
+namespace geoloc::io {
+
+/// Shortest decimal that reads back as the value to `digits` places, so that text stays short and stable.
+double decimals(double value, int digits);
+
+/// The properties of docs/formats.md.
+nlohmann::ordered_json properties_to_json(const ObjectReport& object);
+
+nlohmann::ordered_json counters_to_json(const RunCounters& counters);
+
+/// null for a method that learns none.
+nlohmann::ordered_json calibration_to_json(const std::optional<Calibration>& calibration);
+
+}  // namespace geoloc::io

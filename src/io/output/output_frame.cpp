@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/output/output_frame.hpp"
+
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/attitude.hpp"
+
+namespace geoloc::io {
+namespace {
+
+GroundPoint ground_point(const LocalFrame& frame, const Eigen::Vector2d& position_in_enu) {
+  return {frame.to_geodetic(position_in_enu), position_in_enu};
+}
+
+std::optional<GroundPoint> seen_at(const Eigen::Vector2d& pixel, const Geolocator& geolocator) {
+  const auto fix = geolocator.projector().project(pixel, geolocator.view().enu_from_camera);
+  if (!fix) return std::nullopt;
+  return ground_point(*geolocator.local_frame(), fix->position_in_enu);
+}
+
+std::optional<std::array<GroundPoint, 4>> footprint(const Geolocator& geolocator) {
+  const CameraIntrinsics& image = geolocator.projector().camera().intrinsics();
+  const double right = image.width_px - 0.5, bottom = image.height_px - 0.5;
+  const std::array<Eigen::Vector2d, 4> pixels{{{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}}};
+  std::array<GroundPoint, 4> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto corner = seen_at(pixels[i], geolocator);
+    if (!corner) return std::nullopt;
+    corners[i] = *corner;
+  }
+  return corners;
+}
+
+ViewReport report_view(const Geolocator& geolocator) {
+  const FrameView& view = geolocator.view();
+  const Eigen::Vector3d& vehicle_in_enu = view.vehicle.enu_from_body.translation;
+  const Geodetic vehicle = geolocator.local_frame()->to_geodetic(vehicle_in_enu.head<2>());
+  const double convergence_rad = geolocator.local_frame()->to_local(vehicle).convergence_rad;
+  const EulerAngles angles = euler_angles(enu_from_ned().conjugate() * view.vehicle.enu_from_body.rotation);
+  const CameraIntrinsics& image = geolocator.projector().camera().intrinsics();
+  ViewReport report;
+  report.vehicle = vehicle;
+  report.vehicle_in_enu = vehicle_in_enu;
+  report.roll_deg = angles.roll_rad * kDegPerRad;
+  report.pitch_deg = angles.pitch_rad * kDegPerRad;
+  report.yaw_deg = wrap_to_pi(angles.yaw_rad - convergence_rad) * kDegPerRad;
+  report.enu_from_camera = view.enu_from_camera;
+  report.footprint = footprint(geolocator);
+  report.image_centre = seen_at({0.5 * image.width_px - 0.5, 0.5 * image.height_px - 0.5}, geolocator);
+  return report;
+}
+
+}  // namespace
+
+OutputFrame report_frame(const Geolocator& geolocator, bool is_located, HostTime captured_at,
+                         const std::vector<Detection>& detections,
+                         const std::vector<std::string>& class_names) {
+  OutputFrame frame;
+  frame.captured_at = captured_at;
+  frame.detections = detections;
+  frame.objects = report_objects(geolocator, class_names, TrackStatus::kConfirmed);
+  frame.tentative = report_objects(geolocator, class_names, TrackStatus::kTentative);
+  frame.estimator = report_estimator(geolocator);
+  if (const auto& local = geolocator.local_frame()) {
+    frame.ground_height_msl_m =
+        local->height_ellipsoid_m() + geolocator.projector().config().ground_height_above_home_m;
+  }
+  if (!is_located) return frame;
+  frame.view = report_view(geolocator);
+  for (const LocatedDetection& located : geolocator.located()) {
+    frame.fixes.push_back({located.detection,
+                           ground_point(*geolocator.local_frame(), located.fix.position_in_enu),
+                           located.fix.range_m});
+  }
+  return frame;
+}
+
+}  // namespace geoloc::io

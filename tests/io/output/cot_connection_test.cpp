@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// On the loopback alone: the multicast group is never sent to on another interface.
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "geoloc/io/output/cot_connection.hpp"
+
+namespace geoloc::io {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = CotConnection::Clock;
+
+/// A socket of the test on 127.0.0.1.
+class LoopbackSocket {
+ public:
+  explicit LoopbackSocket(int type, std::uint16_t port = 0) : descriptor_(socket(AF_INET, type, 0)) {
+    const int reuse = 1;
+    setsockopt(descriptor_, SOL_SOCKET, SO_REUSEADDR, &reuse, sizeof reuse);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(port);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(bind(descriptor_, reinterpret_cast<sockaddr*>(&address), size), 0);
+    if (type == SOCK_STREAM) listen(descriptor_, 1);
+    getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size);
+    port_ = ntohs(address.sin_port);
+    const timeval patience{5, 0};
+    setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  }
+  ~LoopbackSocket() { close(descriptor_); }
+  LoopbackSocket(const LoopbackSocket&) = delete;
+  LoopbackSocket& operator=(const LoopbackSocket&) = delete;
+
+  int descriptor() const { return descriptor_; }
+  std::uint16_t port() const { return port_; }
+  std::string url(const char* transport) const {
+    return std::string(transport) + "://127.0.0.1:" + std::to_string(port_);
+  }
+
+ private:
+  int descriptor_;
+  std::uint16_t port_ = 0;
+};
+
+std::string receive(int descriptor) {
+  std::array<char, 2000> buffer;
+  const ssize_t size = recv(descriptor, buffer.data(), buffer.size(), 0);
+  return {buffer.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
+}
+
+struct Connected {
+  explicit Connected(const std::string& url, const CotConfig& config = {})
+      : connection(parse_cot_endpoint(url), config,
+                   [this](const std::string& message) { said.push_back(message); }) {}
+  std::vector<std::string> said;
+  CotConnection connection;
+};
+
+TEST(CotConnection, UdpSendsADatagramAnEvent) {
+  const LoopbackSocket receiver(SOCK_DGRAM);
+  Connected sender(receiver.url("udp"));
+  sender.connection.poll(Clock::now());
+  ASSERT_TRUE(sender.connection.is_ready());
+  sender.connection.send("<event/>");
+  EXPECT_EQ(receive(receiver.descriptor()), "<event/>");
+}
+
+TEST(CotConnection, MulticastStaysOnOneNetworkAndOnTheInterfaceGiven) {
+  CotConfig config;
+  config.multicast_interface = "lo";
+  Connected sender("udp://239.2.3.1:6969", config);
+  sender.connection.poll(Clock::now());
+  ASSERT_GE(sender.connection.descriptor(), 0);
+  unsigned char ttl = 0;
+  socklen_t size = sizeof ttl;
+  ASSERT_EQ(getsockopt(sender.connection.descriptor(), IPPROTO_IP, IP_MULTICAST_TTL, &ttl, &size), 0);
+  EXPECT_EQ(ttl, 1);
+  ip_mreqn interface {};
+  size = sizeof interface;
+  ASSERT_EQ(getsockopt(sender.connection.descriptor(), IPPROTO_IP, IP_MULTICAST_IF, &interface, &size), 0);
+  sockaddr_in peer{};
+  size = sizeof peer;
+  ASSERT_EQ(getpeername(sender.connection.descriptor(), reinterpret_cast<sockaddr*>(&peer), &size), 0);
+  EXPECT_EQ(peer.sin_addr.s_addr, inet_addr("239.2.3.1"));
+  EXPECT_EQ(ntohs(peer.sin_port), 6969);
+}
+
+TEST(CotConnection, AnInterfaceThatIsNotThereIsTold) {
+  CotConfig config;
+  config.multicast_interface = "none0";
+  Connected sender("udp://239.2.3.1:6969", config);
+  sender.connection.poll(Clock::now());
+  EXPECT_FALSE(sender.connection.is_ready());
+  ASSERT_EQ(sender.said.size(), 1U);
+  EXPECT_NE(sender.said.front().find("none0"), std::string::npos);
+}
+
+TEST(CotConnection, TcpComesBackWhenTheServerDoes) {
+  std::optional<LoopbackSocket> server(SOCK_STREAM);
+  const std::uint16_t port = server->port();
+  Connected sender(server->url("tcp"));
+  ASSERT_TRUE(sender.connection.flush(5s));
+  sender.connection.send("<one/>");
+  int client = accept(server->descriptor(), nullptr, nullptr);
+  EXPECT_EQ(receive(client), "<one/>");
+
+  close(client);
+  server.reset();
+  for (int i = 0; i < 500 && sender.connection.is_ready(); ++i) {
+    sender.connection.poll(Clock::now());
+    std::this_thread::sleep_for(10ms);
+  }
+  ASSERT_FALSE(sender.connection.is_ready());
+  ASSERT_EQ(sender.said.size(), 1U);
+
+  server.emplace(SOCK_STREAM, port);
+  ASSERT_TRUE(sender.connection.flush(10s));
+  EXPECT_EQ(sender.connection.counts().connections, 2U);
+  EXPECT_EQ(sender.said.size(), 2U);  // it is told once that it went, and that it is back
+  sender.connection.send("<two/>");
+  client = accept(server->descriptor(), nullptr, nullptr);
+  EXPECT_EQ(receive(client), "<two/>");
+  close(client);
+}
+
+TEST(CotConnection, AServerThatTakesNothingIsGivenUpAndNothingWaits) {
+  const LoopbackSocket server(SOCK_STREAM);  // accepts in the system's queue, and never reads
+  Connected sender(server.url("tcp"));
+  ASSERT_TRUE(sender.connection.flush(5s));
+  const std::string event(1000, 'x');
+  const auto begin = Clock::now();
+  for (int i = 0; i < 100'000 && sender.connection.is_ready(); ++i) sender.connection.send(event);
+  EXPECT_LT(Clock::now() - begin, 5s);
+  ASSERT_FALSE(sender.connection.is_ready());
+  ASSERT_GE(sender.connection.descriptor(), 0);
+  sender.connection.poll(Clock::now() + 11s);
+  EXPECT_LT(sender.connection.descriptor(), 0);
+}
+
+TEST(CotConnection, ADeadServerIsAskedLessAndLessOften) {
+  std::uint16_t port = 0;
+  {
+    const LoopbackSocket gone(SOCK_STREAM);
+    port = gone.port();
+  }
+  Connected sender("tcp://127.0.0.1:" + std::to_string(port));
+  auto now = Clock::now();
+  int attempts = 0;
+  for (int i = 0; i < 3000; ++i) {  // 5 minutes
+    sender.connection.poll(now);
+    now += 100ms;
+    attempts += sender.connection.descriptor() >= 0 ? 1 : 0;
+  }
+  EXPECT_LE(attempts, 40);
+  EXPECT_EQ(sender.said.size(), 1U);
+}
+
+}  // namespace
+}  // namespace geoloc::io
