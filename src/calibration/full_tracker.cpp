@@ -130,7 +130,8 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
     const FixJacobians jacobians = jacobians_of(located.fix, view, height_m);
     const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
     const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
-    const Eigen::Matrix2d pixel_noise = located.fix.covariance(config_.sigma_px);
+    const Eigen::Matrix2d pixel_noise =
+        located.fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
     const Eigen::Matrix2d time_noise =
         std::pow(config_.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose();
     const Eigen::Matrix2d frame_noise =
