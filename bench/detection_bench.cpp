@@ -7,8 +7,8 @@
 #include <random>
 #include <vector>
 
-#include "geoloc/io/detection/opencv_detector.hpp"
 #include "geoloc/io/detection/yolo_decode.hpp"
+#include "geoloc/io/detection/yolo_detector.hpp"
 
 // What a frame of 1280 x 720 costs with the default model, and where it goes.
 namespace {
@@ -20,7 +20,7 @@ constexpr const char* kPicture = GEOLOC_SOURCE_DIR "/tests/data/detection/target
 constexpr io::ImageSize kPictureSize{1280, 720};
 
 io::ImageSize input_size() {
-  return io::OpencvDetector{{kModel, {}}, {}}.input_size();
+  return io::YoloDetector{{kModel, {}}, {}}.input_size();
 }
 
 cv::Mat letterboxed(const cv::Mat& picture, io::ImageSize input) {
@@ -32,7 +32,7 @@ cv::Mat letterboxed(const cv::Mat& picture, io::ImageSize input) {
 }
 
 void detect(benchmark::State& state) {
-  io::OpencvDetector detector{{kModel, {}}, {}};
+  io::YoloDetector detector{{kModel, {}}, {}};
   const cv::Mat picture = cv::imread(kPicture);
   for (auto _ : state) benchmark::DoNotOptimize(detector.detect(picture));
 }
