@@ -45,7 +45,7 @@ void add_options(CLI::App& program, Options& options) {
       ->expected(2);
   program.add_option("--json", options.places.json, "Write a line of JSON for each picture; - is stdout")
       ->type_name("FILE");
-  program.add_option("--draw", options.places.draw, "Write each picture with its boxes here")
+  program.add_option("--draw", options.places.draw, "Write each picture and video with its boxes here")
       ->type_name("DIR");
 }
 

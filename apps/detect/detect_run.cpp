@@ -57,6 +57,7 @@ void DetectRun::look_at_video(const DetectInput& input) {
       break;
     }
   }
+  results_.finish_video();
   const io::VideoStatus status = source->status();
   if (!is_stopped() && !status.last_error.empty())
     tell_unreadable(input.file.string() + ": ended early: " + status.last_error);

@@ -30,9 +30,9 @@ bool is_jpeg(const fs::path& file) {
   return ending == ".jpg" || ending == ".JPG" || ending == ".jpeg" || ending == ".JPEG";
 }
 
-/// Of the drawn picture. Pictures that are not JPEG become PNG, which loses nothing; frames of a video JPEG.
-std::string drawn_name(const fs::path& file, const std::optional<std::uint64_t>& frame) {
-  if (frame) return fmt::format("{}_{:06d}.jpg", file.stem().string(), *frame);
+/// Pictures that are not JPEG become PNG, which loses nothing; videos become Matroska.
+std::string drawn_name(const fs::path& file, bool is_video) {
+  if (is_video) return file.stem().string() + ".mkv";
   return is_jpeg(file) ? file.filename().string() : file.stem().string() + ".png";
 }
 
@@ -44,8 +44,7 @@ void check_drawn_names(const fs::path& folder, const std::vector<DetectInput>& i
     if (fs::equivalent(folder, parent, no_such_folder))
       throw std::runtime_error("--draw " + folder.string() +
                                ": holds what is to be looked at; name another folder");
-    const std::string name =
-        input.is_video ? input.file.stem().string() + " (a video's frames)" : drawn_name(input.file, {});
+    const std::string name = drawn_name(input.file, input.is_video);
     if (!names.insert(name).second)
       throw std::runtime_error("--draw: two inputs would be drawn to " + name +
                                "; do them one after the other");
@@ -99,7 +98,13 @@ void DetectResults::add(SeenPicture& picture, const std::vector<Detection>& dete
   } else if (places_.draw.empty()) {
     std::fputs(line_for_a_person(picture, detections, class_names_).c_str(), stdout);
   }
-  if (!places_.draw.empty()) draw(picture, detections);
+  if (places_.draw.empty()) return;
+  draw_detections(picture.bgr, detections, class_names_);
+  if (picture.frame) {
+    draw_frame(picture);
+  } else {
+    draw(picture);
+  }
 }
 
 void DetectResults::write_json(const SeenPicture& picture, const std::vector<Detection>& detections) {
@@ -125,13 +130,25 @@ void DetectResults::write_json(const SeenPicture& picture, const std::vector<Det
   if (!json_) fail(places_.json, errno);
 }
 
-void DetectResults::draw(SeenPicture& picture, const std::vector<Detection>& detections) const {
-  draw_detections(picture.bgr, detections, class_names_);
-  const fs::path file = fs::path(places_.draw) / drawn_name(picture.file, picture.frame);
+void DetectResults::draw(const SeenPicture& picture) {
+  const fs::path file = fs::path(places_.draw) / drawn_name(picture.file, false);
   std::vector<unsigned char> bytes;
-  if (!cv::imencode(is_jpeg(file) ? ".jpg" : ".png", picture.bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, 92}))
+  if (!cv::imencode(is_jpeg(file) ? ".jpg" : ".png", picture.bgr, bytes))
     throw std::runtime_error(file.string() + ": cannot be encoded");
   io::write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+void DetectResults::draw_frame(const SeenPicture& picture) {
+  if (!video_) {
+    video_ = std::make_unique<io::VideoFile>(fs::path(places_.draw) / drawn_name(picture.file, true),
+                                             picture.bgr.size());
+  }
+  video_->add(picture.bgr, from_seconds(picture.time_s));
+}
+
+void DetectResults::finish_video() {
+  if (video_) video_->finish();
+  video_.reset();
 }
 
 void DetectResults::finish() {

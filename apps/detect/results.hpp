@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "detect/inputs.hpp"
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/io/video/video_file.hpp"
 
 namespace geoloc::apps {
 
@@ -22,8 +24,9 @@ struct SeenPicture {
   cv::Mat bgr;
 };
 
-/// Where geoloc_detect leaves what it finds: lines of JSON, pictures with boxes drawn into them, or, without
-/// either, lines for a person on stdout. Throws std::runtime_error naming the file that cannot be written.
+/// Where geoloc_detect leaves what it finds: lines of JSON, pictures and videos with boxes drawn into them,
+/// or, without either, lines for a person on stdout. Throws std::runtime_error naming the file that cannot be
+/// written.
 class DetectResults {
  public:
   struct Places {
@@ -42,17 +45,22 @@ class DetectResults {
   /// Draws into the picture.
   void add(SeenPicture& picture, const std::vector<Detection>& detections);
 
+  /// No more frames of the video before will come: its drawn one appears.
+  void finish_video();
+
   /// Gives the JSON file its name: it appears whole.
   void finish();
 
  private:
   void write_json(const SeenPicture& picture, const std::vector<Detection>& detections);
-  void draw(SeenPicture& picture, const std::vector<Detection>& detections) const;
+  void draw(const SeenPicture& picture);
+  void draw_frame(const SeenPicture& picture);
 
   Places places_;
   std::vector<std::string> class_names_;
   std::filesystem::path partial_json_;
   std::ofstream json_;
+  std::unique_ptr<io::VideoFile> video_;
 };
 
 }  // namespace geoloc::apps

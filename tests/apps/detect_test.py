@@ -108,8 +108,9 @@ class Detections(DetectTest):
         for number, line in enumerate(found):
             self.assertAlmostEqual(line["time_s"], 0.1 * number, places=4)
             self.assert_boxes(line, (2 + number, 1))
-        self.assertEqual(sorted(file.name for file in (self.folder / "drawn").iterdir()),
-                         [f"clip_{number:06d}.jpg" for number in range(4)])
+        self.assertEqual([file.name for file in (self.folder / "drawn").iterdir()], ["clip.mkv"])
+        drawn = lines(self.detect(self.folder / "drawn" / "clip.mkv", "--json", "-").out)
+        self.assertEqual([line["time_s"] for line in drawn], [0.0, 0.1, 0.2, 0.3])
 
     def test_without_a_place_for_results_they_are_printed_for_a_person(self):
         result = self.detect(self.put("one.png", png(pixels(3, 2))))

@@ -65,15 +65,15 @@ INSTANTIATE_TEST_SUITE_P(Grids, Tiles,
                                            Grid{"FewerPixelsThanTiles", {3, 1}, 32, 32, 64}),
                          [](const auto& instance) { return std::string{instance.param.name}; });
 
-constexpr ImageSize kPicture{200, 100};
+constexpr ImageSize kSmallPicture{200, 100};
 const DetectionConfig kTwoTiles = grid(2, 1, 20);  // from 0 to 110 and from 90 to 200
 
 std::vector<Detection> merged(const std::vector<Detection>& left, const std::vector<Detection>& right,
                               const std::vector<Detection>& whole) {
-  const auto tiles = tiles_of(kPicture, kTwoTiles);
+  const auto tiles = tiles_of(kSmallPicture, kTwoTiles);
   EXPECT_EQ(tiles[0], cv::Rect(0, 0, 110, 100));
   EXPECT_EQ(tiles[1], cv::Rect(90, 0, 110, 100));
-  return merge_tiles({{tiles[0], left}, {tiles[1], right}}, whole, kPicture, kTwoTiles);
+  return merge_tiles({{tiles[0], left}, {tiles[1], right}}, whole, kSmallPicture, kTwoTiles);
 }
 
 TEST(MergedTiles, HaveAnObjectOfTheOverlapOnce) {
