@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "common/command_line.hpp"
-#include "common/data_files.hpp"
+#include "common/detector_options.hpp"
 #include "common/progress.hpp"
 #include "eval/experiment.hpp"
 #include "eval/report_folder.hpp"
@@ -28,6 +28,7 @@ struct Options {
   std::string sweep;
   bool is_rendered = false;
   RenderedSettings rendered;
+  DetectorOptions detector;
   std::string report_folder;
   std::optional<std::filesystem::path> data_folder;
   unsigned threads = std::max(1U, std::thread::hardware_concurrency());
@@ -61,6 +62,7 @@ void add_options(CLI::App& program, Options& options) {
   program.add_option("--rendered-flight", options.rendered.flight, "Which one")->capture_default_str();
   program.add_option("--rendered-s", options.rendered.length_s, "So much of its survey, s [all]")
       ->check(CLI::Range(1.0, 1e4));
+  add_detector_options(program, options.detector);
   program.add_option("--config", options.config_file, "Settings of the estimator, JSON")->type_name("FILE");
   program.add_option("--report", options.report_folder, "Write report.md, report.json and pictures here")
       ->type_name("DIR");
@@ -151,7 +153,9 @@ int main(int argc, char** argv) {
     if (!options.sweep.empty()) sweeps = find_sweeps(options.sweep);
     if (options.is_rendered) {
       sim::load_flight(experiment.flights_folder, options.rendered.flight);  // refuses an unknown one
-      options.rendered.model = find_data_file("models/fiducial.onnx");
+      options.rendered.model = detector_files(options.detector);
+      options.rendered.detection = with_backend(options.detector, {});
+      io::open_detector(options.rendered.model, options.rendered.detection);  // refuses an unusable one
     }
   });
   if (unusable) return *unusable;

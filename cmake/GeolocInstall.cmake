@@ -19,7 +19,7 @@ install(FILES
   "${PROJECT_SOURCE_DIR}/cmake/FindGeographicLib.cmake"
   DESTINATION "${_package}")
 
-foreach(_program IN ITEMS geoloc_app geoloc_eval geoloc_replay geoloc_sim)
+foreach(_program IN ITEMS geoloc_app geoloc_detect geoloc_eval geoloc_replay geoloc_sim)
   if(TARGET ${_program})
     install(TARGETS ${_program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   endif()

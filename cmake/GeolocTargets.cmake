@@ -45,7 +45,9 @@ function(geoloc_add_program target)
   add_executable(${target} ${arg_SOURCES})
   geoloc_set_flags(${target})
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+  get_property(_libraries_elsewhere GLOBAL PROPERTY GEOLOC_INSTALL_RPATH)
+  set_target_properties(${target} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin" INSTALL_RPATH "${_libraries_elsewhere}")
 endfunction()
 
 # geoloc_add_test(tracking SOURCES a_test.cpp … LIBRARIES …): one GoogleTest program a module, each case a ctest test.

@@ -14,6 +14,7 @@ RUN_PACKAGES=(
 )
 TEST_PACKAGES=(git ccache libgtest-dev libbenchmark-dev gdal-bin)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev)
+OPENVINO_VERSION=2026.4.1  # of PyPI
 
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
 

@@ -14,6 +14,12 @@ struct EnumNames<RtspTransport> {
       {{RtspTransport::kTcp, "tcp"}, {RtspTransport::kUdp, "udp"}}};
 };
 
+template <>
+struct EnumNames<Backend> {
+  static constexpr std::array<std::pair<Backend, const char*>, 2> all{
+      {{Backend::kOpencv, "opencv"}, {Backend::kOpenvino, "openvino"}}};
+};
+
 template <class Visitor>
 void visit_fields(Visitor& v, VideoConfig& video) {
   v.field("transport", video.transport, "tcp, or udp");
@@ -33,7 +39,16 @@ void visit_fields(Visitor& v, DetectionConfig& detection) {
   v.field("nms_iou", detection.nms_iou,
           "of two boxes of a class that overlap more, the more confident one stays");
   v.field("max_detections", detection.max_detections, "in a picture");
-  v.field("threads", detection.threads, "of OpenCV; 0: as many as it likes");
+  v.field("threads", detection.threads, "of what runs the network; 0: as many as there are cores");
+  v.field("backend", detection.backend, "what runs the network: opencv, or openvino where it was built in");
+  v.field("input_width_px", detection.input_width_px,
+          "px, of the network's input, for models that leave it open; 0: the model's own");
+  v.field("input_height_px", detection.input_height_px, "px, likewise");
+  v.field("tile_columns", detection.tile_columns,
+          "a picture is cut into so many tiles side by side, each searched as well; 1 x 1: not cut");
+  v.field("tile_rows", detection.tile_rows, "likewise, one below the other");
+  v.field("tile_overlap_px", detection.tile_overlap_px,
+          "px of the picture, of neighbouring tiles: at least the longest object that is small");
 }
 
 }  // namespace geoloc::io

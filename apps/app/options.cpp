@@ -4,22 +4,12 @@
 #include <stdexcept>
 
 #include "common/command_line.hpp"
-#include "common/data_files.hpp"
-#include "geoloc/io/detection/opencv_detector.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
 #include "geoloc/io/video/file_source.hpp"
 #include "geoloc/io/video/rtsp_source.hpp"
 
 namespace geoloc::apps {
 namespace {
-
-std::unique_ptr<io::Detector> make_detector(const LiveOptions& options, const io::DetectionConfig& config) {
-  io::DetectorFiles files;
-  files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
-                                           : std::filesystem::path(options.model_file);
-  if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
-  return std::make_unique<io::OpencvDetector>(files, config);
-}
 
 std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, const io::VideoConfig& config,
                                                    const io::HostClock& clock) {
@@ -42,12 +32,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add("--video", options.video_file, "A video file in place of a stream, played in real time", "FILE");
   add("--config", options.config_file, "Settings, JSON (see --print-config)", "FILE");
   add("--method", options.method, "full, or paper", "NAME");
-  add("--model", options.model_file, "Detector, ONNX with YOLO11's output; default: the fiducial target's",
-      "FILE");
-  add("--class-names", options.class_names_file, "A class name a line; default: those in the model", "FILE");
-  add("--backend", options.backend, "What runs the model: opencv", "NAME")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"opencv"}));
+  add_detector_options(program, options.detector);
   add("--record", options.record_folder, "Record telemetry and detections, for geoloc_replay", "DIR");
   add("--truth", options.truth_file, "True targets, GeoJSON: the run is scored at its end", "FILE");
   program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
@@ -67,6 +52,7 @@ LiveConfig load_config(const LiveOptions& options) {
   if (!options.config_file.empty()) apply(read_config_document(options.config_file), options.config_file);
   if (!options.method.empty()) apply({{"method", options.method}}, "--method");
   apply_priors(options.priors, config.estimation.geolocator);
+  config.detection = with_backend(options.detector, config.detection);
   return config;
 }
 
@@ -84,7 +70,9 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
   attempt([&] {
     if (!options.truth_file.empty()) inputs.truth = io::read_truth(options.truth_file);
   });
-  attempt([&] { inputs.detector = make_detector(options, inputs.config.detection); });
+  attempt([&] {
+    inputs.detector = io::open_detector(detector_files(options.detector), inputs.config.detection);
+  });
   attempt([&] { inputs.socket = std::make_unique<io::UdpSocket>(io::parse_udp_endpoint(options.udp)); });
   attempt([&] { inputs.video = make_video_source(options, inputs.config.video, clock); });
   if (!faults.empty()) throw std::runtime_error(faults);

@@ -8,6 +8,7 @@
 
 #include "app/live_config.hpp"
 #include "common/command_line.hpp"
+#include "common/detector_options.hpp"
 #include "common/run_outputs.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/host_clock.hpp"
@@ -24,9 +25,7 @@ struct LiveOptions {
   std::string video_file;
   std::string config_file;
   std::string method;
-  std::string model_file;
-  std::string class_names_file;
-  std::string backend = "opencv";
+  DetectorOptions detector;
   std::string record_folder;
   std::string truth_file;
   bool print_config = false;

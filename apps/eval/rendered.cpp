@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 
 #include "eval/parallel.hpp"
-#include "geoloc/io/detection/opencv_detector.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "geoloc/sim/flight_camera.hpp"
 #include "geoloc/sim/scenario.hpp"
@@ -52,9 +51,9 @@ void detect_part(const sim::Flight& flight, const RenderedSettings& settings, st
   sim::FlightCamera camera(
       flight, scenario.settings.run, clock,
       sim::make_run_scene(scenario.targets_in_enu, settings.distractors, scenario.settings.run.seed));
-  io::DetectionConfig config;
-  config.threads = 1;  // OpenCV's own threads: the parts run side by side
-  io::OpencvDetector detector({settings.model, std::nullopt}, config);
+  io::DetectionConfig config = settings.detection;
+  config.threads = 1;  // the parts run side by side
+  const auto detector = io::open_detector(settings.model, config);
 
   std::vector<io::RecordedFrame>& frames = scenario.from_pictures;
   const std::size_t begin = frames.size() * part / kParts, end = frames.size() * (part + 1) / kParts;
@@ -64,7 +63,7 @@ void detect_part(const sim::Flight& flight, const RenderedSettings& settings, st
     const sim::FlightCamera::View view = camera.draw_view(frames[i].captured_at);
     if (i < begin) continue;
     camera.render(view, picture);
-    frames[i].detections = detector.detect(picture);
+    frames[i].detections = detector->detect(picture);
     on_frame();
   }
 }

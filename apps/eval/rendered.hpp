@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "eval/experiment.hpp"
+#include "geoloc/io/detection/yolo_detector.hpp"
 
 namespace geoloc::apps {
 
@@ -18,7 +19,8 @@ struct RenderedSettings {
   int distractors = 20;              ///< things on the ground that look like targets
   std::optional<double> length_s;    ///< [s] of the survey, from its beginning; unset: all of it
   std::filesystem::path recordings;  ///< a recording of each scenario goes here, to be replayed; empty: none
-  std::filesystem::path model;       ///< the detector, ONNX
+  io::DetectorFiles model;
+  io::DetectionConfig detection;  ///< all but its threads
 };
 
 /// One method on one flight, once with what the detector found in drawn pictures, and once with detections

@@ -169,7 +169,7 @@ Look FullTracker::make_look(const LocatedDetection& located, const Projector& pr
   applied.segment<2>(Index::kOffset).setZero();
 
   Look look;
-  look.pixel_noise = located.fix.covariance(config_.sigma_px);
+  look.pixel_noise = located.fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
   look.frame_noise = std::pow(config_.sigma_attitude_deg * kRadPerDeg, 2) * turn * turn.transpose() +
                      fast_variance * Eigen::Matrix2d::Identity();
   look.observation.value = located.fix.position_in_enu - jacobians.calibration * applied;

@@ -18,7 +18,8 @@ GeolocatorConfig checked(const GeolocatorConfig& config) {
 bool is_usable(const Detection& detection) {
   const Box& box = detection.box;
   return std::isfinite(box.x) && std::isfinite(box.y) && box.width > 0.0 && std::isfinite(box.width) &&
-         box.height > 0.0 && std::isfinite(box.height) && std::isfinite(detection.confidence);
+         box.height > 0.0 && std::isfinite(box.height) && std::isfinite(detection.confidence) &&
+         (detection.sigma_px == 0.0 || is_sigma_px(detection.sigma_px));
 }
 
 std::variant<PaperTracker, FullTracker> make_tracker(const GeolocatorConfig& config) {
@@ -34,7 +35,8 @@ bool may_be_cut(const Box& box, const CameraIntrinsics& image, double margin_px)
 /// Total order on what a detection is: whatever order a detector lists them in, they are treated alike.
 bool canonical_order(const Detection& a, const Detection& b) {
   const auto key = [](const Detection& d) {
-    return std::make_tuple(-d.confidence, d.box.x, d.box.y, d.box.width, d.box.height, d.class_id);
+    return std::make_tuple(-d.confidence, d.box.x, d.box.y, d.box.width, d.box.height, d.class_id,
+                           d.sigma_px);
   };
   return key(a) < key(b);
 }

@@ -69,6 +69,11 @@ void PaperTracker::update(const std::vector<LocatedDetection>& detections, const
   merge_near_confirmed();
 }
 
+Eigen::Matrix2d PaperTracker::measurement_covariance(const LocatedDetection& located) const {
+  if (located.detection.sigma_px == 0.0) return measurement_covariance_;
+  return measurement_covariance_ + located.fix.covariance(located.detection.sigma_px);
+}
+
 void PaperTracker::associate(const std::vector<LocatedDetection>& detections) {
   const auto rows = static_cast<Eigen::Index>(detections.size());
   candidates_.clear();
@@ -79,9 +84,13 @@ void PaperTracker::associate(const std::vector<LocatedDetection>& detections) {
     const auto column = static_cast<Eigen::Index>(candidates_.size());
     bool within_gate = false;
     for (Eigen::Index i = 0; i < rows; ++i) {
-      const Eigen::Vector2d residual =
-          detections[static_cast<std::size_t>(i)].fix.position_in_enu - track.mean;
-      costs_(i, column) = std::sqrt(residual.dot(information * residual));
+      const LocatedDetection& located = detections[static_cast<std::size_t>(i)];
+      const Eigen::Vector2d residual = located.fix.position_in_enu - track.mean;
+      const Eigen::Matrix2d& its_information =
+          located.detection.sigma_px == 0.0
+              ? information
+              : (track.covariance + measurement_covariance(located)).inverse().eval();
+      costs_(i, column) = std::sqrt(residual.dot(its_information * residual));
       within_gate = within_gate || costs_(i, column) < config_.gate;
     }
     if (within_gate) candidates_.push_back(k);  // otherwise the next track takes this column
@@ -103,8 +112,8 @@ void PaperTracker::update_matched(const std::vector<LocatedDetection>& detection
   for (std::size_t i = 0; i < detections.size(); ++i) {
     if (track_of_detection_[i] == AssignmentSolver::kUnassigned) continue;
     Track& track = tracks_[static_cast<std::size_t>(track_of_detection_[i])];
-    track.position_in_enu =
-        kalman_update(track.position_in_enu, detections[i].fix.position_in_enu, measurement_covariance_);
+    track.position_in_enu = kalman_update(track.position_in_enu, detections[i].fix.position_in_enu,
+                                          measurement_covariance(detections[i]));
     track.position_in_enu.covariance += process_covariance_;
     track.penalty = std::max(0, track.penalty - 1);
     count_hit(track, detections[i].detection, captured_at);
@@ -130,7 +139,7 @@ void PaperTracker::start_tentative(const std::vector<LocatedDetection>& detectio
     }
     Track track;
     track.id = next_id_++;
-    track.position_in_enu = {detections[i].fix.position_in_enu, measurement_covariance_};
+    track.position_in_enu = {detections[i].fix.position_in_enu, measurement_covariance(detections[i])};
     track.first_seen = captured_at;
     count_hit(track, detections[i].detection, captured_at);
     if (track.hits >= config_.confirm_hits) track.status = TrackStatus::kConfirmed;

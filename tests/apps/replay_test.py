@@ -124,6 +124,8 @@ class BadRecordings(AppTest):
             "no time": '{"detections": []}',
             "not a number": '{"time_us": 1795313538548800, "detections": [%s]}' % (detection % "[NaN, 1, 2, 3]"),
             "infinite": '{"time_us": 1795313538548800, "detections": [%s]}' % (detection % "[1e999, 1, 2, 3]"),
+            "a sigma of nothing": '{"time_us": 1795313538548800, "detections": [{"box": [1, 1, 2, 3], "sigma_px": 0}]}',
+            "a sigma without bounds": '{"time_us": 1795313538548800, "detections": [{"box": [1, 1, 2, 3], "sigma_px": 1e9}]}',
             "a box of no size": '{"time_us": 1795313538548800, "detections": [%s]}' % (detection % "[1, 1, 0, 3]"),
         }
         good = (self.recording / "frames.jsonl").read_text().splitlines()[2]

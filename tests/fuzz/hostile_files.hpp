@@ -29,7 +29,8 @@ inline void require(bool holds) {
 inline bool is_usable(const Detection& detection) {
   const Box& box = detection.box;
   return std::isfinite(box.x) && std::isfinite(box.y) && box.width > 0.0 && box.height > 0.0 &&
-         detection.confidence >= 0.0 && detection.confidence <= 1.0 && detection.class_id >= 0;
+         detection.confidence >= 0.0 && detection.confidence <= 1.0 && detection.class_id >= 0 &&
+         (detection.sigma_px == 0.0 || is_sigma_px(detection.sigma_px));
 }
 
 inline void read_any_frames(const std::string& text, BadLines bad_lines) {

@@ -30,9 +30,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::memcpy(values.data(), data + 4, values.size() * sizeof(float));
   const int candidates = static_cast<int>(values.size()) / (4 + classes);
   const auto decoded =
-      io::decode_yolo({values.data(), classes, candidates}, io::fit_letterbox(picture, input), picture, {});
+      io::decode_yolo({values.data(), classes, candidates}, io::fit_letterbox(picture, input), picture, {},
+                      io::CentreSigma{0.3, 0.01});
   for (const Detection& detection : decoded.detections) {
     require_inside(detection.box, picture);
+    if (detection.sigma_px != 0.0 && !is_sigma_px(detection.sigma_px)) std::abort();
     if (!(detection.confidence > 0 && detection.confidence <= 1)) std::abort();
     if (detection.class_id < 0 || detection.class_id >= classes) std::abort();
   }

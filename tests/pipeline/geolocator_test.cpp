@@ -321,13 +321,39 @@ TEST(Geolocator, CountsDetectionsItCannotUse) {
   frame.detections = {{{100, 100, 30, 30}, 0.5, 0},
                       {{nan, 0, 1, 1}, 0.9, 0},
                       {{0, 0, 0, 10}, 0.9, 0},
+                      {{200, 300, 30, 30}, 0.9, 0, nan},
+                      {{300, 300, 30, 30}, 0.9, 0, -1.0},
+                      {{400, 300, 30, 30}, 0.9, 0, 1e-9},
                       {{500, 300, 30, 30}, 0.9, 0},
                       {{700, 300, 30, 30}, 0.8, 0}};
   flight.geolocator().process(frame);
-  EXPECT_EQ(flight.geolocator().counters().detections_dropped, 3U);
+  EXPECT_EQ(flight.geolocator().counters().detections_dropped, 6U);
   ASSERT_EQ(flight.geolocator().located().size(), 2U);  // the two most confident
   EXPECT_DOUBLE_EQ(flight.geolocator().located()[0].detection.confidence, 0.9);
   EXPECT_DOUBLE_EQ(flight.geolocator().located()[1].detection.confidence, 0.8);
+}
+
+TEST(Geolocator, TrustsADetectionAsFarAsItTrustsItself) {
+  const auto final_sigma_m = [](Method method, double sigma_px) {
+    GeolocatorConfig config;
+    config.method = method;
+    Flight flight(config);
+    for (double time_s = 1.0; time_s < 15.0; time_s += 0.1) {
+      FrameDetections frame = flight.frame(time_s);
+      for (Detection& detection : frame.detections) detection.sigma_px = sigma_px;
+      flight.geolocator().process(frame);
+    }
+    double sum_m = 0.0;
+    for (const Track& track : flight.geolocator().tracks())
+      sum_m += std::sqrt(track.position_in_enu.covariance.trace());
+    return sum_m / static_cast<double>(flight.geolocator().tracks().size());
+  };
+  for (const Method method : {Method::kPaper, Method::kFull}) {
+    EXPECT_GT(final_sigma_m(method, 40.0), 1.1 * final_sigma_m(method, 1.0));
+    EXPECT_GT(final_sigma_m(method, 200.0), 1.1 * final_sigma_m(method, 40.0));
+  }
+  const double configured_px = FullTrackerConfig{}.sigma_px;
+  EXPECT_EQ(final_sigma_m(Method::kFull, 0.0), final_sigma_m(Method::kFull, configured_px)) << "not stated";
 }
 
 TEST(Geolocator, DoesNotAllocateInTheSteadyState) {

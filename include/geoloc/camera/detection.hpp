@@ -24,7 +24,19 @@ struct Detection {
   Box box;
   double confidence = 0.0;  ///< 0..1
   int class_id = 0;
+  /// 1-sigma of the box's centre, an axis; 0: not stated, and the configured constant holds.
+  double sigma_px = 0.0;
+
+  double sigma_px_or(double constant_px) const { return sigma_px > 0.0 ? sigma_px : constant_px; }
 };
+
+inline constexpr double kSmallestSigma_px = 1e-3;
+inline constexpr double kLargestSigma_px = 1e3;
+
+/// Whether it can be a Detection's that is stated. False for NaN.
+inline bool is_sigma_px(double sigma_px) {
+  return sigma_px >= kSmallestSigma_px && sigma_px <= kLargestSigma_px;
+}
 
 /// What a detector saw in one frame. An empty list is information too: nothing was seen.
 struct FrameDetections {

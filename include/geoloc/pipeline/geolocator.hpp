@@ -27,7 +27,7 @@ class Geolocator {
     std::uint64_t frames_located = 0;      ///< that had a vehicle state
     std::uint64_t frames_unusable = 0;     ///< that will never have one
     std::uint64_t detections = 0;          ///< in located frames
-    std::uint64_t detections_dropped = 0;  ///< beyond max_detections, or with a box that is not finite
+    std::uint64_t detections_dropped = 0;  ///< beyond max_detections, or with numbers that cannot be
     std::uint64_t detections_at_edge = 0;  ///< not used: cut by the image's edge, perhaps
     std::array<std::uint64_t, kNoFixReasons> no_fix{};  ///< detections without a ground point, by NoFix
   };

@@ -30,7 +30,7 @@ struct PaperTrackerConfig {
 
 /// Spatial refinement as published (paper, section 4): optimal assignment on Mahalanobis distances, one
 /// Kalman filter an object, penalties for objects that should be visible and are not, merging of confirmed
-/// neighbours.
+/// neighbours. Where a detection states a sigma, what that makes on the ground is added to R.
 class PaperTracker {
  public:
   /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
@@ -47,6 +47,7 @@ class PaperTracker {
 
  private:
   void associate(const std::vector<LocatedDetection>& detections);
+  Eigen::Matrix2d measurement_covariance(const LocatedDetection& located) const;
   void update_matched(const std::vector<LocatedDetection>& detections, HostTime captured_at);
   void penalise_missed(const Projector& projector, const Rigid3d& enu_from_camera);
   void remove_unreliable();

@@ -26,17 +26,24 @@ class Values {
   const YoloOutput& output_;
 };
 
-struct Score {
-  double value = 0.0;
-  int class_id = 0;
+/// Of each candidate: its best class. Row by row, as the scores lie in memory.
+struct BestScores {
+  std::vector<float> values;
+  std::vector<int> class_ids;
 };
 
-Score best_score(const YoloOutput& output, int candidate) {
-  const Values values{output};
-  Score best;
-  for (int class_id = 0; class_id < output.classes; ++class_id) {
-    const double value = values(YoloOutput::kBoxRows + class_id, candidate);
-    if (value > best.value) best = {value, class_id};  // false for NaN
+BestScores best_scores(const YoloOutput& output) {
+  const auto candidates = static_cast<std::size_t>(output.candidates);
+  const float* row = output.values + YoloOutput::kBoxRows * candidates;
+  BestScores best{{row, row + candidates}, std::vector<int>(candidates, 0)};
+  for (int class_id = 1; class_id < output.classes; ++class_id) {
+    row += candidates;
+    for (std::size_t i = 0; i < candidates; ++i) {
+      const bool is_better =
+          !(row[i] <= best.values[i]) && !std::isnan(best.values[i]);  // NaN wins, and stays
+      best.class_ids[i] = is_better ? class_id : best.class_ids[i];
+      best.values[i] = is_better ? row[i] : best.values[i];
+    }
   }
   return best;
 }
@@ -55,15 +62,17 @@ std::optional<Box> box_of(const YoloOutput& output, int candidate) {
 
 DecodedBoxes confident_boxes(const YoloOutput& output, double threshold) {
   DecodedBoxes found;
+  const BestScores best = best_scores(output);
   for (int candidate = 0; candidate < output.candidates; ++candidate) {
-    const Score score = best_score(output, candidate);
-    if (!(score.value >= threshold)) continue;
+    const double score = best.values[static_cast<std::size_t>(candidate)];
+    if (score < threshold) continue;
     const auto box = box_of(output, candidate);
-    if (!box || score.value > 1 + kScoreTolerance) {
+    if (!box || !(score <= 1 + kScoreTolerance)) {
       ++found.rejected;
       continue;
     }
-    found.detections.push_back({*box, std::min(score.value, 1.0), score.class_id});
+    found.detections.push_back(
+        {*box, std::min(score, 1.0), best.class_ids[static_cast<std::size_t>(candidate)]});
   }
   return found;
 }
@@ -94,6 +103,20 @@ std::optional<Box> clipped(const Box& box, ImageSize picture) {
   return Box{left, top, right - left, bottom - top};
 }
 
+bool is_inside(const Box& box, ImageSize picture) {
+  return box.x >= 0.0 && box.y >= 0.0 && box.x + box.width <= picture.width_px &&
+         box.y + box.height <= picture.height_px;
+}
+
+/// In the picture; a box that is cut off has another centre than the object, so nothing is stated of it.
+double sigma_px(const Box& in_input, const Box& in_picture, ImageSize picture, const CentreSigma& sigma) {
+  if (!is_inside(in_picture, picture)) return 0.0;
+  const double size_px = std::sqrt(in_input.width * in_input.height);
+  const double picture_per_input = std::sqrt(in_picture.width * in_picture.height) / size_px;
+  const double stated = std::hypot(sigma.constant_px, sigma.of_size * size_px) * picture_per_input;
+  return std::isfinite(stated) ? std::clamp(stated, kSmallestSigma_px, kLargestSigma_px) : 0.0;
+}
+
 }  // namespace
 
 double intersection_over_union(const Box& a, const Box& b) {
@@ -105,13 +128,16 @@ double intersection_over_union(const Box& a, const Box& b) {
 }
 
 DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize picture,
-                         const DetectionConfig& config) {
+                         const DetectionConfig& config, const std::optional<CentreSigma>& sigma) {
   DecodedBoxes decoded = confident_boxes(output, config.confidence);
   const std::vector<Detection> in_input = suppress_overlaps(std::move(decoded.detections), config);
   decoded.detections.clear();
   for (const Detection& detection : in_input) {
-    const auto box = clipped(letterbox.to_picture(detection.box), picture);
-    if (box) decoded.detections.push_back({*box, detection.confidence, detection.class_id});
+    const Box whole = letterbox.to_picture(detection.box);
+    const auto box = clipped(whole, picture);
+    if (!box) continue;
+    decoded.detections.push_back({*box, detection.confidence, detection.class_id,
+                                  sigma ? sigma_px(detection.box, whole, picture, *sigma) : 0.0});
   }
   return decoded;
 }

@@ -63,6 +63,11 @@ Detection parse_detection(const json& value) {
     throw std::invalid_argument("confidence must lie in [0, 1]");
   }
   if (value.contains("class_id")) detection.class_id = whole_number(value["class_id"], "class_id", 1e6);
+  if (value.contains("sigma_px")) {
+    detection.sigma_px = finite_number(value["sigma_px"], "sigma_px");
+    if (!is_sigma_px(detection.sigma_px))
+      throw std::invalid_argument("sigma_px must lie in [0.001, 1000]; leave it out where it is not known");
+  }
   return detection;
 }
 

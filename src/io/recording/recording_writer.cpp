@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geoloc/io/json/camera_fields.hpp"
+#include "geoloc/io/json/detection_fields.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -40,12 +41,7 @@ std::int64_t microseconds(HostTime time) {
 
 nlohmann::ordered_json to_json(const RecordedFrame& frame) {
   auto detections = nlohmann::ordered_json::array();
-  for (const Detection& detection : frame.detections) {
-    const Box& box = detection.box;
-    detections.push_back({{"box", {box.x, box.y, box.width, box.height}},
-                          {"confidence", detection.confidence},
-                          {"class_id", detection.class_id}});
-  }
+  for (const Detection& detection : frame.detections) detections.push_back(detection_to_json(detection));
   nlohmann::ordered_json line{{"time_us", microseconds(frame.captured_at)},
                               {"detections", std::move(detections)}};
   if (frame.telemetry_records) line["telemetry_records"] = *frame.telemetry_records;

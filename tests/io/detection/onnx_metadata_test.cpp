@@ -93,5 +93,18 @@ TEST(ClassNames, AreNotGuessed) {
   }
 }
 
+TEST(CentreSigma, IsTwoNumbersAndNothingElse) {
+  const auto sigma = parse_centre_sigma("0.31,0.0080");
+  ASSERT_TRUE(sigma);
+  EXPECT_EQ(sigma->constant_px, 0.31);
+  EXPECT_EQ(sigma->of_size, 0.008);
+  EXPECT_TRUE(parse_centre_sigma("1e-3,0"));
+  for (const char* text :
+       {"", ",", "0.3", "0.3,", ",0.1", "0.3;0.1", "0,0.1", "-0.3,0.1", "0.3,-0.1", "nan,0.1", "0.3,inf",
+        "0.3,0.1,0.1", " 0.3,0.1", "0.3,0.1 ", "0.3,0.1px", "1e999,0"}) {
+    EXPECT_FALSE(parse_centre_sigma(text)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace geoloc::io

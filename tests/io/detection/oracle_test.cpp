@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "geoloc/io/detection/opencv_detector.hpp"
+#include "geoloc/io/detection/yolo_detector.hpp"
 
 // The oracle is ONNX Runtime with a letterbox and a suppression written in numpy:
 // tools/fixtures/make_detection_fixture.py.
@@ -54,7 +54,7 @@ TEST(DefaultModel, FindsWhatOnnxRuntimeFinds) {
   DetectionConfig config;
   config.confidence = 0.4;
   config.nms_iou = 0.5;
-  OpencvDetector detector{{model, {}}, config};
+  YoloDetector detector{{model, {}}, config};
   const auto found = detector.detect(cv::imread((data / "detection/targets.jpg").string()));
   const auto expected = expected_detections(fixture);
   EXPECT_GE(expected.size(), 5U);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <vector>
@@ -118,9 +119,39 @@ TEST(YoloDecode, RejectsAndCountsWhatCannotBeABox) {
                                {100, 50, 0, 20, {0.9F}},
                                {100, 50, 20, 20, {7.0F}},
                                {100, 50, 20, 20, {infinity}},
-                               {100, 50, 20, 20, {nan}}});  // the last one is below any threshold
+                               {100, 50, 20, 20, {nan}}});
   EXPECT_TRUE(decoded.detections.empty());
-  EXPECT_EQ(decoded.rejected, 6U);
+  EXPECT_EQ(decoded.rejected, 7U);
+}
+
+TEST(YoloDecode, RejectsACandidateWithAnyScoreThatIsNoNumber) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto decoded = decode({{100, 50, 20, 20, {nan, 0.9F, 0.1F}},
+                               {200, 50, 20, 20, {0.9F, nan, 0.1F}},
+                               {300, 50, 20, 20, {0.1F, 0.9F, nan}},
+                               {400, 50, 20, 20, {0.1F, 0.2F, 0.9F}}});
+  ASSERT_EQ(decoded.detections.size(), 1U);
+  EXPECT_EQ(decoded.detections[0].class_id, 2);
+  EXPECT_EQ(decoded.rejected, 3U);
+}
+
+TEST(YoloDecode, StatesTheSigmaOfCentresInPixelsOfThePicture) {
+  const std::vector<float> values =
+      tensor({{100, 50, 20, 5, {0.9F}}, {300, 50, 40, 40, {0.8F}}, {638, 50, 20, 20, {0.7F}}});
+  constexpr ImageSize kPictureSize{1280, 720};
+  const auto decode_with = [&](const std::optional<CentreSigma>& sigma) {
+    return decode_yolo({values.data(), 1, 3}, fit_letterbox(kPictureSize, kPicture), kPictureSize,
+                       kThreshold04, sigma)
+        .detections;
+  };
+  const auto stated = decode_with(CentreSigma{0.3, 0.02});
+  ASSERT_EQ(stated.size(), 3U);
+  EXPECT_NEAR(stated[0].sigma_px, 2.0 * std::hypot(0.3, 0.02 * 10), 1e-6);  // the picture is halved
+  EXPECT_NEAR(stated[1].sigma_px, 2.0 * std::hypot(0.3, 0.02 * 40), 1e-6);
+  EXPECT_EQ(stated[2].sigma_px, 0.0) << "cut off by the picture's edge: its centre is another";
+  for (const Detection& detection : decode_with({})) EXPECT_EQ(detection.sigma_px, 0.0);
+  EXPECT_EQ(decode_with(CentreSigma{1e-12, 0.0})[0].sigma_px, kSmallestSigma_px);
+  EXPECT_EQ(decode_with(CentreSigma{1e300, 1e300})[0].sigma_px, kLargestSigma_px);
 }
 
 TEST(YoloDecode, ANetworkGoneWrongGivesNoMoreThanTheLimit) {
@@ -141,7 +172,13 @@ TEST(IntersectionOverUnion, OfKnownBoxes) {
 
 TEST(DetectionConfig, TellsEveryFault) {
   EXPECT_TRUE(DetectionConfig{}.problems().empty());
-  EXPECT_EQ((DetectionConfig{std::numeric_limits<double>::quiet_NaN(), 0.0, 0, -1}.problems().size()), 4U);
+  DetectionConfig config{std::numeric_limits<double>::quiet_NaN(), 0.0, 0, -1};
+  EXPECT_EQ(config.problems().size(), 4U);
+  config.input_width_px = 9000;  // too long, and alone
+  config.tile_columns = 0;
+  config.tile_rows = 33;
+  config.tile_overlap_px = -1;
+  EXPECT_EQ(config.problems().size(), 9U);
 }
 
 }  // namespace

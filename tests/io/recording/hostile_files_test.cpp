@@ -47,7 +47,8 @@ void damage_and_read(const std::string& good, Reader read) {
   }
 }
 
-const std::string kDetections = R"("detections":[{"box":[1,2.5,3,4],"confidence":0.5,"class_id":1}])";
+const std::string kDetections =
+    R"("detections":[{"box":[1,2.5,3,4],"confidence":0.5,"class_id":1,"sigma_px":0.4}])";
 
 TEST(HostileFiles, Frames) {
   damage_and_read(R"({"time_us":1795313538548799,)" + kDetections + "}\n" +

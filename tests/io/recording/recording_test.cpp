@@ -18,7 +18,7 @@ HostTime at_us(std::int64_t us) {
 }
 
 RecordedFrame some_frame(std::int64_t time_us) {
-  return {at_us(time_us), {{{1.25, 2.1, 30.7, 1.0 / 3.0}, 0.87654321, 4}}, 1};
+  return {at_us(time_us), {{{1.25, 2.1, 30.7, 1.0 / 3.0}, 0.87654321, 4, 0.37}, {{5, 6, 7, 8}, 0.5, 1}}, 1};
 }
 
 void write_recording(const std::filesystem::path& folder) {
@@ -43,7 +43,9 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   const RecordedFrame expected = some_frame(1'000'100);
   EXPECT_EQ(recording.frames[0].captured_at, expected.captured_at);
   EXPECT_EQ(recording.frames[0].telemetry_records, 1U);
-  ASSERT_EQ(recording.frames[0].detections.size(), 1U);
+  ASSERT_EQ(recording.frames[0].detections.size(), 2U);
+  EXPECT_EQ(recording.frames[0].detections[0].sigma_px, 0.37);
+  EXPECT_EQ(recording.frames[0].detections[1].sigma_px, 0.0);
   EXPECT_EQ(recording.frames[0].detections[0].box.height, 1.0 / 3.0);
   EXPECT_EQ(recording.frames[0].detections[0].confidence, 0.87654321);
   EXPECT_EQ(recording.frames[0].detections[0].class_id, 4);

@@ -6,12 +6,26 @@
 
 namespace geoloc::io {
 
+/// What runs a network.
+enum class Backend {
+  kOpencv,   ///< OpenCV's DNN module
+  kOpenvino  ///< faster; only where geoloc was built with it (scripts/openvino.sh)
+};
+
+inline constexpr int kLongestInput_px = 8192;
+
 /// "detection" in the configuration file.
 struct DetectionConfig {
   double confidence = 0.55;  ///< boxes with a lower score are dropped
   double nms_iou = 0.5;      ///< of two boxes of a class that overlap more, the less confident one is dropped
   int max_detections = 300;  ///< in a picture
-  int threads = 0;           ///< of OpenCV, in the whole program; 0: as many as it likes
+  int threads = 0;           ///< of the back end; OpenCV's are the whole program's; 0: all cores
+  Backend backend = Backend::kOpencv;
+  int input_width_px = 0;   ///< of the network's input, for models that leave it open; 0: the model's own
+  int input_height_px = 0;  ///< likewise
+  int tile_columns = 1;     ///< a picture is cut into so many by so many tiles; 1 by 1: it is not cut
+  int tile_rows = 1;
+  int tile_overlap_px = 64;  ///< of neighbours, in the picture: no less than an object that matters is long
 
   /// Every fault, named by its JSON path.
   std::vector<std::string> problems() const;

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "geoloc/io/detection/yolo_decode.hpp"
+
 namespace geoloc::io {
 
 /// An input or output of an ONNX graph.
@@ -35,5 +37,10 @@ std::optional<OnnxMetadata> read_onnx_metadata(const std::uint8_t* data, std::si
 /// The names in ultralytics' property "names": a Python dictionary, {0: 'person', 1: "driver's seat"}.
 /// nullopt where it is not one, or where its keys are not 0, 1, 2 … Takes any text.
 std::optional<std::vector<std::string>> parse_class_names(std::string_view dictionary);
+
+/// The property kCentreSigmaKey: "a,b", two decimal numbers, a > 0 and b >= 0 (yolo_decode.hpp). nullopt
+/// where it is anything else. Takes any text.
+std::optional<CentreSigma> parse_centre_sigma(std::string_view text);
+inline constexpr const char* kCentreSigmaKey = "geoloc_centre_sigma_px";
 
 }  // namespace geoloc::io

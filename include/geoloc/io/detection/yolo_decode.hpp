@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geoloc/camera/detection.hpp"
@@ -21,15 +22,23 @@ struct YoloOutput {
   int candidates = 0;
 };
 
+/// 1-sigma of a box's centre, an axis, in pixels of the network's input: hypot(constant_px, of_size * size),
+/// where size is the root of the box's area there.
+struct CentreSigma {
+  double constant_px = 0.0;
+  double of_size = 0.0;
+};
+
 struct DecodedBoxes {
   std::vector<Detection> detections;  ///< in the picture and inside it, most confident first
-  std::size_t rejected = 0;           ///< confident boxes that are not finite or of no size; scores above 1
+  std::size_t rejected = 0;  ///< confident boxes that are not finite or of no size; scores above 1 or NaN
 };
 
 /// Threshold, non-maximum suppression within each class, and the way back from the network's input to the
-/// picture. A candidate counts for its best class alone. What lies outside the picture is cut off.
+/// picture. A candidate counts for its best class alone. What lies outside the picture is cut off. Without
+/// `sigma`, and for boxes that were cut off, Detection::sigma_px is not stated.
 DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize picture,
-                         const DetectionConfig& config);
+                         const DetectionConfig& config, const std::optional<CentreSigma>& sigma = {});
 
 /// Area of the intersection over that of the union; 0 where they do not touch.
 double intersection_over_union(const Box& a, const Box& b);

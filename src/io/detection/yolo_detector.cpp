@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/io/detection/opencv_detector.hpp"
+#include "geoloc/io/detection/yolo_detector.hpp"
 
+#include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/io/detection/tiled_detector.hpp"
 #include "geoloc/io/detection/yolo_decode.hpp"
-#include "onnx_network.hpp"
+#include "network.hpp"
 
 namespace geoloc::io {
 namespace {
 
-const cv::Scalar kGrey = cv::Scalar::all(114);  // what YOLO networks are trained to see as no picture
-
-std::vector<std::string> names_for(const DetectorFiles& files, const OnnxNetwork& network) {
+std::vector<std::string> names_for(const DetectorFiles& files, const DetectionNetwork& network) {
   const auto classes = static_cast<std::size_t>(network.classes);
   if (files.class_names) {
     auto names = read_class_names(*files.class_names);
@@ -29,16 +29,20 @@ std::vector<std::string> names_for(const DetectorFiles& files, const OnnxNetwork
   return names;
 }
 
+DetectionConfig checked(const DetectionConfig& config) {
+  throw_if_any(config.problems());
+  return config;
+}
+
 }  // namespace
 
-class OpencvDetector::Impl {
+class YoloDetector::Impl {
  public:
-  Impl(const DetectorFiles& files, const DetectionConfig& config) : config_(config) {
-    throw_if_any(config_.problems());
-    if (config_.threads > 0) cv::setNumThreads(config_.threads);
-    network_ = load_onnx_network(files.model);
+  Impl(const DetectorFiles& files, const DetectionConfig& config) : config_(checked(config)) {
+    if (config_.backend == Backend::kOpencv && config_.threads > 0) cv::setNumThreads(config_.threads);
+    network_ = load_network(files.model, config_);
     class_names_ = names_for(files, network_);
-    canvas_ = cv::Mat{network_.input.height_px, network_.input.width_px, CV_8UC3, kGrey};
+    canvas_ = cv::Mat{network_.input.height_px, network_.input.width_px, CV_8UC3, kLetterboxGrey};
   }
 
   std::vector<Detection> detect(const cv::Mat& picture) {
@@ -47,7 +51,7 @@ class OpencvDetector::Impl {
       const cv::Mat bgr = as_bgr(picture);
       if (!bgr.empty()) return detect_in_bgr(bgr);
       ++counts_.unusable_images;
-    } catch (const std::exception&) {  // cv::Exception, or no memory
+    } catch (const std::exception&) {  // cv::Exception, ov::Exception, or no memory
       ++counts_.failed_images;
     }
     return {};
@@ -71,58 +75,59 @@ class OpencvDetector::Impl {
   std::vector<Detection> detect_in_bgr(const cv::Mat& bgr) {
     const ImageSize size{bgr.cols, bgr.rows};
     const Letterbox letterbox = fit_letterbox(size, network_.input);
-    fill_input(bgr, letterbox);
-    network_.net.setInput(input_);
-    const cv::Mat output = network_.net.forward();
+    fill_canvas(bgr, letterbox);
+    const cv::Mat output = network_.network->run(canvas_);
     if (output.total() != static_cast<std::size_t>(network_.candidates) * (4 + class_names_.size())) {
       throw std::runtime_error("the output changed its size");
     }
-    const DecodedBoxes decoded =
-        decode_yolo({output.ptr<float>(), network_.classes, network_.candidates}, letterbox, size, config_);
+    const DecodedBoxes decoded = decode_yolo({output.ptr<float>(), network_.classes, network_.candidates},
+                                             letterbox, size, config_, network_.centre_sigma);
     counts_.rejected_boxes += decoded.rejected;
     return decoded.detections;
   }
 
-  /// RGB planes in 0..1.
-  void fill_input(const cv::Mat& bgr, const Letterbox& letterbox) {
+  void fill_canvas(const cv::Mat& bgr, const Letterbox& letterbox) {
     const cv::Rect place{letterbox.left_px, letterbox.top_px, letterbox.scaled.width_px,
                          letterbox.scaled.height_px};
-    if (place != place_) canvas_.setTo(kGrey);
+    if (place != place_) canvas_.setTo(kLetterboxGrey);
     place_ = place;
     cv::Mat target = canvas_(place);
     cv::resize(bgr, target, target.size(), 0, 0, cv::INTER_LINEAR);
-    constexpr bool kSwapRedAndBlue = true;
-    cv::dnn::blobFromImage(canvas_, input_, 1.0 / 255.0, {}, {}, kSwapRedAndBlue);
   }
 
   const DetectionConfig config_;
-  OnnxNetwork network_;
+  DetectionNetwork network_;
   std::vector<std::string> class_names_;
   DetectorCounts counts_;
   cv::Mat canvas_;  // the letterboxed picture
   cv::Rect place_;  // of the picture in it
-  cv::Mat input_;
 };
 
-OpencvDetector::OpencvDetector(const DetectorFiles& files, const DetectionConfig& config)
+YoloDetector::YoloDetector(const DetectorFiles& files, const DetectionConfig& config)
     : impl_(std::make_unique<Impl>(files, config)) {}
 
-OpencvDetector::~OpencvDetector() = default;
+YoloDetector::~YoloDetector() = default;
 
-std::vector<Detection> OpencvDetector::detect(const cv::Mat& bgr) {
+std::vector<Detection> YoloDetector::detect(const cv::Mat& bgr) {
   return impl_->detect(bgr);
 }
 
-const std::vector<std::string>& OpencvDetector::class_names() const {
+const std::vector<std::string>& YoloDetector::class_names() const {
   return impl_->class_names();
 }
 
-DetectorCounts OpencvDetector::counts() const {
+DetectorCounts YoloDetector::counts() const {
   return impl_->counts();
 }
 
-ImageSize OpencvDetector::input_size() const {
+ImageSize YoloDetector::input_size() const {
   return impl_->input_size();
+}
+
+std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& config) {
+  auto detector = std::make_unique<YoloDetector>(files, config);
+  if (config.tile_columns * config.tile_rows == 1) return detector;
+  return std::make_unique<TiledDetector>(std::move(detector), config);
 }
 
 }  // namespace geoloc::io

@@ -18,17 +18,18 @@ struct DetectorFiles {
   std::optional<std::filesystem::path> class_names;  ///< a name a line; without it, those in the model
 };
 
-/// A YOLO network run by OpenCV's DNN module on the CPU.
-class OpencvDetector final : public Detector {
+/// A YOLO network run on the CPU over whole pictures; the tiles of its configuration are not for it
+/// (open_detector()).
+class YoloDetector final : public Detector {
  public:
   /// Reads the model and runs it once, so that whatever is wrong with it is found here. Throws
   /// std::runtime_error naming the file, the fault and the remedy; std::invalid_argument for a bad
-  /// configuration. Sets the number of OpenCV's threads, which the whole program shares, if the configuration
-  /// names one.
-  OpencvDetector(const DetectorFiles& files, const DetectionConfig& config);
-  ~OpencvDetector() override;
-  OpencvDetector(const OpencvDetector&) = delete;
-  OpencvDetector& operator=(const OpencvDetector&) = delete;
+  /// configuration. Sets the number of OpenCV's threads, which the whole program shares, if OpenCV is the
+  /// back end and the configuration names one.
+  YoloDetector(const DetectorFiles& files, const DetectionConfig& config);
+  ~YoloDetector() override;
+  YoloDetector(const YoloDetector&) = delete;
+  YoloDetector& operator=(const YoloDetector&) = delete;
 
   std::vector<Detection> detect(const cv::Mat& bgr) override;
   const std::vector<std::string>& class_names() const override;
@@ -40,5 +41,12 @@ class OpencvDetector final : public Detector {
   class Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The detector that the configuration asks for: on whole pictures, or on their tiles as well. Throws as
+/// YoloDetector does.
+std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& config);
+
+/// Whether Backend::kOpenvino can be chosen.
+bool has_openvino();
 
 }  // namespace geoloc::io

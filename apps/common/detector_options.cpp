@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/detector_options.hpp"
+
+#include "common/data_files.hpp"
+
+namespace geoloc::apps {
+
+void add_detector_options(CLI::App& program, DetectorOptions& options) {
+  program
+      .add_option("--model", options.model_file,
+                  "Detector, ONNX with YOLO11's output; default: the fiducial target's")
+      ->type_name("FILE");
+  program
+      .add_option("--class-names", options.class_names_file,
+                  "A class name a line; default: those in the model")
+      ->type_name("FILE");
+  program
+      .add_option("--backend", options.backend, "What runs the model; default: opencv, or detection.backend")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"opencv", "openvino"}));
+}
+
+io::DetectorFiles detector_files(const DetectorOptions& options) {
+  io::DetectorFiles files;
+  files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
+                                           : std::filesystem::path(options.model_file);
+  if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
+  return files;
+}
+
+io::DetectionConfig with_backend(const DetectorOptions& options, io::DetectionConfig config) {
+  if (options.backend == "opencv") config.backend = io::Backend::kOpencv;
+  if (options.backend == "openvino") config.backend = io::Backend::kOpenvino;
+  return config;
+}
+
+}  // namespace geoloc::apps

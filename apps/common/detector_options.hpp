@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "geoloc/io/detection/detector.hpp"
+#include "geoloc/io/detection/yolo_detector.hpp"
+
+namespace geoloc::apps {
+
+/// Which network, and what runs it; empty where the command line does not say.
+struct DetectorOptions {
+  std::string model_file;
+  std::string class_names_file;
+  std::string backend;
+};
+
+/// --model, --class-names, --backend.
+void add_detector_options(CLI::App& program, DetectorOptions& options);
+
+/// The model named, or the one that comes with geoloc. Throws std::runtime_error where that is not found.
+io::DetectorFiles detector_files(const DetectorOptions& options);
+
+/// --backend over what the configuration says.
+io::DetectionConfig with_backend(const DetectorOptions& options, io::DetectionConfig config);
+
+}  // namespace geoloc::apps

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the detector over pictures and videos: whether a model works on a camera's footage, before any flight.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+
+#include "app/live_config.hpp"
+#include "common/command_line.hpp"
+#include "common/detector_options.hpp"
+#include "detect/detect_run.hpp"
+
+namespace {
+
+using namespace geoloc;
+using namespace geoloc::apps;
+
+struct Options {
+  std::vector<std::string> inputs;
+  DetectorOptions detector;
+  std::string config_file;
+  std::optional<double> confidence;
+  std::vector<int> tiles;
+  std::vector<int> input_size_px;
+  DetectResults::Places places;
+};
+
+void add_options(CLI::App& program, Options& options) {
+  program.add_option("INPUT", options.inputs, "Pictures, videos, or folders of pictures")->required();
+  add_detector_options(program, options.detector);
+  program.add_option("--config", options.config_file, "Settings, JSON: \"detection\" of those of geoloc_app")
+      ->type_name("FILE");
+  program.add_option("--confidence", options.confidence,
+                     "Leave out boxes with a lower score; default: detection.confidence");
+  program
+      .add_option("--tiles", options.tiles,
+                  "Look at so many by so many tiles of each picture as well; default: detection.tile_columns "
+                  "and tile_rows")
+      ->type_name("COLUMNS ROWS")
+      ->expected(2);
+  program
+      .add_option("--input-size", options.input_size_px,
+                  "Of the network's input, px, for models that leave it open; default: the model's own")
+      ->type_name("WIDTH HEIGHT")
+      ->expected(2);
+  program.add_option("--json", options.places.json, "Write a line of JSON for each picture; - is stdout")
+      ->type_name("FILE");
+  program.add_option("--draw", options.places.draw, "Write each picture and video with its boxes here")
+      ->type_name("DIR");
+}
+
+io::DetectionConfig detection_of(const Options& options, const io::DetectionConfig& configured) {
+  io::DetectionConfig config = with_backend(options.detector, configured);
+  if (options.confidence) config.confidence = *options.confidence;
+  if (!options.tiles.empty()) {
+    config.tile_columns = options.tiles[0];
+    config.tile_rows = options.tiles[1];
+  }
+  if (!options.input_size_px.empty()) {
+    config.input_width_px = options.input_size_px[0];
+    config.input_height_px = options.input_size_px[1];
+  }
+  return config;
+}
+
+/// Everything that can be wrong before the first picture is found while this is made.
+struct Program {
+  explicit Program(const Options& options) : inputs(find_inputs(options.inputs)) {
+    if (!options.config_file.empty()) {
+      std::vector<std::string> problems;
+      live_from_json(read_config_document(options.config_file), config, problems);
+      refuse_problems(options.config_file, problems);
+    }
+    detector = io::open_detector(detector_files(options.detector), detection_of(options, config.detection));
+    results = std::make_unique<DetectResults>(options.places, inputs, detector->class_names());
+  }
+
+  std::vector<DetectInput> inputs;
+  LiveConfig config;
+  std::unique_ptr<io::Detector> detector;
+  std::unique_ptr<DetectResults> results;
+};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App cli("Finds objects in pictures and videos with a detector's model.", "geoloc_detect");
+  Options options;
+  add_options(cli, options);
+  if (const auto status = parse(cli, argc, argv)) return *status;
+
+  std::unique_ptr<Program> program;
+  const auto unusable =
+      guard("geoloc_detect", kUnusable, [&] { program = std::make_unique<Program>(options); });
+  if (unusable) return *unusable;
+
+  DetectRun run(*program->detector, *program->results, program->config.video, program->inputs.size());
+  const auto failed = guard("geoloc_detect", kFailed, [&] {
+    for (const DetectInput& input : program->inputs) {
+      if (!run.is_stopped()) run.look_at(input);
+    }
+    run.finish();
+    if (run.counts().pictures > 0) program->results->finish();
+  });
+  if (run.counts().pictures > 0) std::fprintf(stderr, "%s\n", run.summary().c_str());
+  if (failed) return *failed;
+  if (run.counts().unreadable > 0) return kUnusable;
+  return program->detector->counts().failed_images > 0 ? kFailed : kDone;
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "geoloc/camera/detection.hpp"
+
+namespace geoloc::io {
+
+/// As frames.jsonl has it: `box`, `confidence`, `class_id`, and `sigma_px` where it is stated.
+nlohmann::ordered_json detection_to_json(const Detection& detection);
+
+}  // namespace geoloc::io

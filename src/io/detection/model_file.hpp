@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "geoloc/io/detection/detection_config.hpp"
+#include "geoloc/io/detection/letterbox.hpp"
+#include "geoloc/io/detection/onnx_metadata.hpp"
+
+namespace geoloc::io {
+
+/// An ONNX file that has the input of a detector.
+struct ModelFile {
+  std::filesystem::path name;
+  std::vector<char> bytes;
+  OnnxMetadata metadata;
+  ImageSize input;  ///< of the network: the file's, or the configuration's where the file leaves it open
+};
+
+/// Throws std::runtime_error naming the file, the fault and the remedy.
+ModelFile read_model_file(const std::filesystem::path& file, const DetectionConfig& config);
+
+/// A name a line. Throws std::runtime_error naming the file where it cannot be read or names no class.
+std::vector<std::string> read_class_names(const std::filesystem::path& file);
+
+/// Throws std::runtime_error: "FILE: FAULT".
+[[noreturn]] void refuse_model(const std::filesystem::path& file, const std::string& fault);
+
+/// "[1, 3, ?, 640]".
+std::string shape_text(const std::vector<std::int64_t>& shape);
+
+/// Lines joined, and the end left out where there is much of it: a back end's words within ours.
+std::string one_line(std::string reason);
+
+}  // namespace geoloc::io

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/video/video_file.hpp"
+
+#include <gst/app/gstappsrc.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "gst_pipeline.hpp"
+
+namespace geoloc::io {
+namespace {
+
+constexpr guint64 kLongestQueue = 4;
+constexpr GstClockTime kPatience = 60 * GST_SECOND;
+
+/// GStreamer's rows of BGR begin at multiples of four bytes.
+GstBufferPtr to_buffer(const cv::Mat& bgr) {
+  const int row_bytes = 3 * bgr.cols, stride = (row_bytes + 3) / 4 * 4;
+  cv::Mat padded = cv::Mat::zeros(bgr.rows, stride, CV_8U);
+  bgr.reshape(1).copyTo(padded.colRange(0, row_bytes));
+  return GstBufferPtr{gst_buffer_new_memdup(padded.data, padded.total())};
+}
+
+}  // namespace
+
+class VideoFile::Impl {
+ public:
+  Impl(std::filesystem::path file, cv::Size size) : file_(std::move(file)), partial_(file_), size_(size) {
+    partial_ += ".partial-" + std::to_string(::getpid());
+    init_gstreamer();
+    pipeline_.reset(gst_pipeline_new(nullptr));
+    build();
+    gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
+  }
+
+  ~Impl() {
+    pipeline_.reset();
+    std::error_code ignored;
+    std::filesystem::remove(partial_, ignored);
+  }
+
+  void add(const cv::Mat& bgr, Duration time) {
+    while (gst_app_src_get_current_level_buffers(source_) >= kLongestQueue)
+      wait_for_message(GST_MESSAGE_ERROR, 10 * GST_MSECOND);
+    wait_for_message(GST_MESSAGE_ERROR, 0);
+    cv::Mat picture = bgr;
+    if (bgr.size() != size_) cv::resize(bgr, picture, size_);
+    GstBufferPtr buffer = to_buffer(picture);
+    GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(std::max<Duration::rep>(0, time.count()));
+    gst_app_src_push_buffer(source_, buffer.release());
+  }
+
+  void finish() {
+    gst_app_src_end_of_stream(source_);
+    if (!wait_for_message(static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR), kPatience))
+      fail("the encoder does not end");
+    pipeline_.reset();
+    std::error_code error;
+    std::filesystem::rename(partial_, file_, error);
+    if (error) fail(error.message());
+  }
+
+ private:
+  void build() {
+    source_ = GST_APP_SRC(add_element(pipeline_.get(), "appsrc"));
+    const GstCapsPtr caps{gst_caps_new_simple("video/x-raw", "format", G_TYPE_STRING, "BGR", "width",
+                                              G_TYPE_INT, size_.width, "height", G_TYPE_INT, size_.height,
+                                              "framerate", GST_TYPE_FRACTION, 0, 1, nullptr)};
+    g_object_set(source_, "caps", caps.get(), "format", GST_FORMAT_TIME, "max-bytes", guint64{0}, nullptr);
+    GstElement* converter = add_element(pipeline_.get(), "videoconvert");
+    GstElement* encoder = add_encoder();
+    GstElement* muxer = add_element(pipeline_.get(), "matroskamux");
+    GstElement* sink = add_element(pipeline_.get(), "filesink");
+    g_object_set(sink, "location", partial_.c_str(), nullptr);
+    if (gst_element_link_many(GST_ELEMENT(source_), converter, encoder, muxer, sink, nullptr) == FALSE)
+      fail("GStreamer's elements do not fit together");
+  }
+
+  GstElement* add_encoder() {
+    const bool is_even = size_.width % 2 == 0 && size_.height % 2 == 0;
+    if (!is_even || !has_element("x264enc")) return add_element(pipeline_.get(), "jpegenc");
+    GstElement* encoder = add_element(pipeline_.get(), "x264enc");
+    gst_util_set_object_arg(G_OBJECT(encoder), "speed-preset", "veryfast");
+    gst_util_set_object_arg(G_OBJECT(encoder), "pass", "quant");
+    g_object_set(encoder, "quantizer", 20U, nullptr);
+    return encoder;
+  }
+
+  /// Whether it came; throws where it is an error.
+  bool wait_for_message(GstMessageType types, GstClockTime timeout) {
+    const GstObjectPtr<GstBus> bus{gst_element_get_bus(pipeline_.get())};
+    const GstMessagePtr message{gst_bus_timed_pop_filtered(bus.get(), timeout, types)};
+    if (message && GST_MESSAGE_TYPE(message.get()) == GST_MESSAGE_ERROR) fail(error_text(message.get()));
+    return message != nullptr;
+  }
+
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw std::runtime_error(file_.string() + ": cannot be written: " + reason);
+  }
+
+  std::filesystem::path file_;
+  std::filesystem::path partial_;
+  cv::Size size_;
+  GstPipelinePtr pipeline_;
+  GstAppSrc* source_ = nullptr;  // owned by the pipeline
+};
+
+VideoFile::VideoFile(std::filesystem::path file, cv::Size size)
+    : impl_(std::make_unique<Impl>(std::move(file), size)) {}
+
+VideoFile::~VideoFile() = default;
+
+void VideoFile::add(const cv::Mat& bgr, Duration time) {
+  impl_->add(bgr, time);
+}
+
+void VideoFile::finish() {
+  impl_->finish();
+}
+
+}  // namespace geoloc::io
