@@ -33,6 +33,13 @@ std::string remarks(const ObjectReport& object, const CotContext& context) {
   return text;
 }
 
+/// Nothing of what stands still.
+std::string track_of(const ObjectReport& object) {
+  if (!object.course) return {};
+  return fmt::format("<track course=\"{:.1f}\" speed=\"{:.2f}\"/>",
+                     known_or(object.course->direction_deg, 0.0), known_or(object.course->speed_mps, 0.0));
+}
+
 }  // namespace
 
 std::string to_cot(const ObjectReport& object, const CotContext& context, const CotConfig& config) {
@@ -46,12 +53,13 @@ std::string to_cot(const ObjectReport& object, const CotContext& context, const 
       "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"yes\"?>\n"
       "<event version=\"2.0\" uid=\"{}\" type=\"{}\" how=\"m-f\" time=\"{}\" start=\"{}\" stale=\"{}\">"
       "<point lat=\"{:.8f}\" lon=\"{:.8f}\" hae=\"{:.2f}\" ce=\"{:.2f}\" le=\"{:.2f}\"/>"
-      "<detail><contact callsign=\"{} {}\"/><precisionlocation geopointsrc=\"Calculated\" altsrc=\"{}\"/>"
+      "<detail><contact callsign=\"{} {}\"/><precisionlocation geopointsrc=\"Calculated\" altsrc=\"{}\"/>{}"
       "<remarks>{}</remarks></detail></event>\n",
       escape_markup(context.uid), type_of(object, config), iso8601(context.sent_at),
       iso8601(std::min(object.last_seen, context.sent_at)), iso8601(stale_at), object.position.latitude_deg,
       object.position.longitude_deg, context.height_ellipsoid_m.value_or(kUnknown), known_or(ce, kUnknown),
-      le, name, object.id, context.height_ellipsoid_m ? "Calculated" : "???", remarks(object, context));
+      le, name, object.id, context.height_ellipsoid_m ? "Calculated" : "???", track_of(object),
+      remarks(object, context));
 }
 
 }  // namespace geoloc::io

@@ -15,16 +15,21 @@ double decimals(double value, int digits) {
 }
 
 ordered_json properties_to_json(const ObjectReport& object) {
-  return {{"id", object.id},
-          {"class_id", object.class_id},
-          {"class_name", object.class_name},
-          {"confidence", decimals(object.confidence, 3)},
-          {"hits", object.hits},
-          {"first_seen", iso8601(object.first_seen)},
-          {"last_seen", iso8601(object.last_seen)},
-          {"sigma_major_m", decimals(object.ellipse.sigma_major_m, 4)},
-          {"sigma_minor_m", decimals(object.ellipse.sigma_minor_m, 4)},
-          {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)}};
+  ordered_json properties{{"id", object.id},
+                          {"class_id", object.class_id},
+                          {"class_name", object.class_name},
+                          {"confidence", decimals(object.confidence, 3)},
+                          {"hits", object.hits},
+                          {"first_seen", iso8601(object.first_seen)},
+                          {"last_seen", iso8601(object.last_seen)},
+                          {"sigma_major_m", decimals(object.ellipse.sigma_major_m, 4)},
+                          {"sigma_minor_m", decimals(object.ellipse.sigma_minor_m, 4)},
+                          {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)}};
+  if (object.course) {
+    properties["speed_mps"] = decimals(object.course->speed_mps, 2);
+    properties["course_deg"] = decimals(object.course->direction_deg, 1);
+  }
+  return properties;
 }
 
 ordered_json counters_to_json(const RunCounters& counters) {

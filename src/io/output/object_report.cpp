@@ -22,6 +22,11 @@ ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance) {
           azimuth_deg};
 }
 
+Course course_of(const Eigen::Vector2d& velocity_in_enu) {
+  const double direction_deg = std::atan2(velocity_in_enu.x(), velocity_in_enu.y()) * kDegPerRad;
+  return {velocity_in_enu.norm(), direction_deg < 0.0 ? direction_deg + 360.0 : direction_deg};
+}
+
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
                                          const std::vector<std::string>& class_names, TrackStatus status) {
   std::vector<ObjectReport> reports;
@@ -39,6 +44,7 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
     report.position = geolocator.local_frame()->to_geodetic(report.position_in_enu);
     report.covariance_in_enu = track.position_in_enu.covariance;
     report.ellipse = error_ellipse(track.position_in_enu.covariance);
+    if (track.velocity_in_enu) report.course = course_of(track.velocity_in_enu->mean);
     reports.push_back(report);
   }
   return reports;

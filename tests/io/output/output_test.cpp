@@ -7,6 +7,8 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/atomic_file.hpp"
+#include "geoloc/io/output/cot_event.hpp"
+#include "geoloc/io/output/csv.hpp"
 #include "geoloc/io/output/geojson.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/io/output/raw_fixes.hpp"
@@ -63,6 +65,30 @@ TEST(GeoJson, HoldsTheFieldsOfTheFormat) {
   EXPECT_TRUE(json.contains("calibration"));
 }
 
+TEST(Course, IsClockwiseFromNorth) {
+  for (const auto& [velocity, direction_deg] :
+       {std::pair{Eigen::Vector2d(0, 2), 0.0}, std::pair{Eigen::Vector2d(2, 0), 90.0},
+        std::pair{Eigen::Vector2d(0, -2), 180.0}, std::pair{Eigen::Vector2d(-2, 0), 270.0}}) {
+    EXPECT_DOUBLE_EQ(course_of(velocity).direction_deg, direction_deg);
+    EXPECT_DOUBLE_EQ(course_of(velocity).speed_mps, 2.0);
+  }
+}
+
+TEST(Outputs, TellHowFastAndWhereToOnlyWhatMovesMoves) {
+  ObjectReport moving = some_object();
+  moving.course = Course{3.25, 271.5};
+  for (const bool moves : {true, false}) {
+    const std::vector<ObjectReport> objects{moves ? moving : some_object()};
+    const auto properties =
+        nlohmann::json::parse(objects_to_geojson(objects, {}))["features"][0]["properties"];
+    EXPECT_EQ(properties.contains("speed_mps"), moves);
+    EXPECT_EQ(properties.contains("course_deg"), moves);
+    EXPECT_EQ(objects_to_csv(objects).find("3.25,271.5") != std::string::npos, moves);
+    const std::string cot = to_cot(objects[0], {}, {});
+    EXPECT_EQ(cot.find("<track course=\"271.5\" speed=\"3.25\"/>") != std::string::npos, moves);
+  }
+}
+
 TEST(GeoJson, HostileClassNamesStayText) {
   ObjectReport object = some_object();
   object.class_name = "\"]}\xff\x01<script>";
@@ -106,7 +132,7 @@ TEST(AtomicFile, ReplacesTheOldContentOrLeavesIt) {
   EXPECT_EQ(content, "new");
   EXPECT_THROW(write_file_atomically(folder.path() / "none" / "x", "new"), std::runtime_error);
   EXPECT_THROW(write_file_atomically("/dev/full", "new"), std::runtime_error);
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // not replaced
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));                         // not replaced
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);  // nothing left beside
 }
 

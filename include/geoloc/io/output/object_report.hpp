@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,14 @@ struct ErrorEllipse {
 
 ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance);
 
+/// Over the ground, when last seen.
+struct Course {
+  double speed_mps = 0.0;
+  double direction_deg = 0.0;  ///< from true north, clockwise, in [0, 360)
+};
+
+Course course_of(const Eigen::Vector2d& velocity_in_enu);
+
 /// What every output says of an object.
 struct ObjectReport {
   std::uint64_t id = 0;
@@ -33,6 +42,7 @@ struct ObjectReport {
   Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_in_enu = Eigen::Matrix2d::Zero();  ///< east, north [m^2]
   ErrorEllipse ellipse;
+  std::optional<Course> course;  ///< of objects of moving classes
 };
 
 /// The objects of that status in order of their ids.
