@@ -14,8 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 8) return 0;
   const io::ImageSize picture{1 + data[0] + 256 * data[1], 1 + data[2] + 256 * data[3]};
   io::DetectionConfig config;
-  config.tile_columns = 1 + data[4] % 32;
-  config.tile_rows = 1 + data[5] % 32;
+  config.tile_columns = 1 + data[4] % 8;
+  config.tile_rows = 1 + data[5] % 8;
   config.tile_overlap_px = data[6] * 16;
   int right = 0, bottom = 0;
   std::vector<io::TileDetections> found;

@@ -111,7 +111,7 @@ TEST_F(PictureFile, ThatIsNoneIsRefused) {
 
 TEST_F(PictureFile, ThatClaimsAnAbsurdSizeIsRefused) {
   std::string png = encoded(".png", colours());
-  for (const std::size_t length : {16, 20}) png.replace(length, 4, "\x7F\xFF\xFF\xFF", 4);
+  for (const std::size_t length : {16U, 20U}) png.replace(length, 4, "\x7F\xFF\xFF\xFF", 4);
   EXPECT_NE(fault_of(png), "none");
   std::string bmp = encoded(".bmp", colours());
   bmp.replace(18, 8, "\xFF\xFF\xFF\x7F\xFF\xFF\xFF\x7F", 8);
