@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // On the loopback alone: the multicast group is never sent to on another interface.
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -145,6 +146,21 @@ TEST(CotConnection, AServerThatTakesNothingIsGivenUpAndNothingWaits) {
   ASSERT_GE(sender.connection.descriptor(), 0);
   sender.connection.poll(Clock::now() + 11s);
   EXPECT_LT(sender.connection.descriptor(), 0);
+}
+
+TEST(CotConnection, AServerThatHangsUpOnEveryoneIsAskedLessAndLessOften) {
+  const LoopbackSocket server(SOCK_STREAM);
+  fcntl(server.descriptor(), F_SETFL, O_NONBLOCK);
+  Connected sender(server.url("tcp"));
+  auto now = Clock::now();
+  for (int i = 0; i < 600; ++i) {  // a minute
+    sender.connection.poll(now);
+    now += 100ms;
+    const int client = accept(server.descriptor(), nullptr, nullptr);
+    if (client >= 0) close(client);
+  }
+  EXPECT_LE(sender.connection.counts().connections, 7U);
+  EXPECT_GE(sender.connection.counts().connections, 2U);
 }
 
 TEST(CotConnection, ADeadServerIsAskedLessAndLessOften) {
