@@ -106,7 +106,7 @@ TEST(AtomicFile, ReplacesTheOldContentOrLeavesIt) {
   EXPECT_EQ(content, "new");
   EXPECT_THROW(write_file_atomically(folder.path() / "none" / "x", "new"), std::runtime_error);
   EXPECT_THROW(write_file_atomically("/dev/full", "new"), std::runtime_error);
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));  // not replaced
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));                         // not replaced
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);  // nothing left beside
 }
 
