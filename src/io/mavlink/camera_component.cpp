@@ -4,26 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mav_numbers.hpp"
+#include "timing.hpp"
+
 namespace geoloc::io {
 namespace {
 
 using namespace std::chrono_literals;
 
 constexpr std::uint32_t kInformation = 259, kFieldOfView = 271, kTracking = 276;
-constexpr std::uint16_t kSetMessageInterval = 511, kRequestMessage = 512, kRequestCameraInformation = 521;
-constexpr std::uint16_t kTrackPoint = 2004, kStopTracking = 2010;                          // MAV_CMD
-constexpr std::uint8_t kAccepted = 0, kRejectedForNow = 1, kDenied = 2, kUnsupported = 3;  // MAV_RESULT
 
-constexpr Duration kHeartbeatPeriod = 1s;
 constexpr Duration kLeastPeriod = 100ms;  // whatever is asked for: the link is the vehicle's
 constexpr Duration kLongestPeriod = 1h;
 constexpr Duration kViewLasts = 3s;
 constexpr std::size_t kMostReplies = 16;  // a flood of commands is not answered
 constexpr double kReach = 0.1;            // of the image: a point selects an object that is nearer
-
-bool is_due(const std::optional<HostTime>& last, Duration period, HostTime now) {
-  return !last || now < *last || now - *last >= period;
-}
 
 /// A message's number in a command's parameter; nullopt where it is none.
 std::optional<std::uint32_t> message_number(float parameter) {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "mav_numbers.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -18,11 +20,6 @@ constexpr Duration kPauseAfterDenial = 10s;
 constexpr Duration kLongestPause = 30s;
 /// Unanswered requests after which the old way is tried in turn with the new one.
 constexpr int kPatience = 2;
-
-// MAV_RESULT
-constexpr std::uint8_t kAccepted = 0;
-constexpr std::uint8_t kUnsupported = 3;
-constexpr std::uint8_t kInProgress = 5;
 
 Duration pause_after(int attempts) {
   constexpr int kDoublings = 5;

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "geoloc/geometry/problems.hpp"
+#include "mav_numbers.hpp"
+#include "timing.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -13,7 +15,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint8_t kAutopilotComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
-constexpr Duration kHeartbeatPeriod = 1s;
 /// The clock is wanted soon after start and reboot; then it only drifts.
 constexpr Duration kFastTimesyncPeriod = 100ms;
 constexpr Duration kTimesyncPeriod = 1s;
@@ -26,8 +27,6 @@ constexpr Duration kEulerSilence = 1s;
 /// ours.
 constexpr std::int64_t kNanosecondsPerStamp = 1000;
 
-constexpr std::uint16_t kSetMessageInterval = 511;  // MAV_CMD
-
 std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot) {
   constexpr std::uint32_t kSystemTime = 2, kGpsRawInt = 24, kAttitude = 30, kGlobalPositionInt = 33;
   constexpr std::uint32_t kEkfStatusReport = 193, kEstimatorStatus = 230;
@@ -39,10 +38,6 @@ std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ar
   if (is_ardupilot) streams.push_back({kEkfStatusReport, 2.0, kExtra3});
   if (!is_ardupilot) streams.push_back({kEstimatorStatus, 1.0, kNone});
   return streams;
-}
-
-bool is_due(const std::optional<HostTime>& last, Duration period, HostTime now) {
-  return !last || now < *last || now - *last >= period;
 }
 
 std::optional<Duration> since(const std::optional<HostTime>& time, HostTime now) {

@@ -21,6 +21,7 @@ namespace {
 
 constexpr std::size_t kMostPending = 256 * 1024;  // bytes
 constexpr auto kStallLimit = std::chrono::seconds{10};
+constexpr auto kFirstBackoff = std::chrono::seconds{1};
 constexpr auto kLongestBackoff = std::chrono::seconds{30};
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
@@ -54,6 +55,8 @@ std::string CotConnection::name() const {
 }
 
 void CotConnection::fail(Clock::time_point now, const std::string& reason) {
+  const bool was_connected = descriptor_ >= 0 && !is_connecting_;
+  if (was_connected && now - connected_at_ > kLongestBackoff) backoff_ = kFirstBackoff;
   if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
   is_connecting_ = false;
   pending_.clear();  // a new connection must not begin in the middle of an event
@@ -105,6 +108,7 @@ void CotConnection::finish_connecting(Clock::time_point now) {
   if (error != 0) return fail(now, reason_of(error));
   is_connecting_ = false;
   moved_at_ = now;
+  connected_at_ = now;
   ++counts_.connections;
   if (std::exchange(has_told_, false)) tell_(name() + ": connected");
 }
@@ -130,10 +134,7 @@ void CotConnection::write_pending(Clock::time_point now) {
     pending_.erase(0, static_cast<std::size_t>(size));
     moved_at_ = now;
   }
-  if (pending_.empty()) {
-    moved_at_ = now;
-    backoff_ = std::chrono::seconds{1};
-  }
+  if (pending_.empty()) moved_at_ = now;
 }
 
 void CotConnection::poll(Clock::time_point now) {

@@ -12,7 +12,6 @@
 namespace geoloc::io {
 namespace {
 
-constexpr double kEllipseSigmas = 2.0;
 constexpr int kEllipseCorners = 36;
 
 // Colours are alpha, blue, green, red.
@@ -62,8 +61,8 @@ std::string ellipse_ring(const ObjectReport& object, const LocalFrame& frame) {
   for (int i = 0; i <= kEllipseCorners; ++i) {
     const double angle_rad = 2.0 * kPi * (i % kEllipseCorners) / kEllipseCorners;
     const Eigen::Vector2d offset_m =
-        kEllipseSigmas * (object.ellipse.sigma_major_m * std::cos(angle_rad) * major +
-                          object.ellipse.sigma_minor_m * std::sin(angle_rad) * minor);
+        kDrawnSigmas * (object.ellipse.sigma_major_m * std::cos(angle_rad) * major +
+                        object.ellipse.sigma_minor_m * std::sin(angle_rad) * minor);
     const Geodetic corner = frame.to_geodetic(object.position_in_enu + offset_m);
     fmt::format_to(std::back_inserter(ring), "{:.9f},{:.9f} ", corner.longitude_deg, corner.latitude_deg);
   }

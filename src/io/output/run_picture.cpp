@@ -17,7 +17,6 @@ constexpr double kWidth_px = 1000.0;
 constexpr double kHeader_px = 70.0;
 constexpr double kFooter_px = 56.0;
 constexpr double kMargin_px = 46.0;
-constexpr double kEllipseSigmas = 2.0;
 
 constexpr const char* kStyle = R"(<style>
  text{font-family:Inter,"Helvetica Neue",Arial,sans-serif;fill:#334155}
@@ -130,8 +129,8 @@ void draw_object(const Map& map, const ObjectReport& object, std::string& svg) {
   fmt::format_to(out,
                  "<ellipse class=\"ellipse\" cx=\"{0:.1f}\" cy=\"{1:.1f}\" rx=\"{2:.1f}\" ry=\"{3:.1f}\" "
                  "transform=\"rotate({4:.1f} {0:.1f} {1:.1f})\"/>",
-                 x, y, map.length(kEllipseSigmas * object.ellipse.sigma_minor_m),
-                 map.length(kEllipseSigmas * object.ellipse.sigma_major_m), object.ellipse.azimuth_deg);
+                 x, y, map.length(kDrawnSigmas * object.ellipse.sigma_minor_m),
+                 map.length(kDrawnSigmas * object.ellipse.sigma_major_m), object.ellipse.azimuth_deg);
   fmt::format_to(
       out, "<circle class=\"object\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.4\"><title>{}</title></circle>", x, y,
       escape_markup(fmt::format("object {} · {} · {:.7f}, {:.7f} · {} looks", object.id, object.class_name,

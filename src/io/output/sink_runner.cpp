@@ -133,7 +133,6 @@ void SinkRunner::State::post(Item item) {
 
 SinkRunner::SinkRunner(std::unique_ptr<Sink> sink, const SinkRunnerConfig& config, Tell tell)
     : name_(sink->name()),
-      patience_(config.patience),
       state_(std::make_shared<State>(std::move(sink), config, std::move(tell))),
       thread_([state = state_] { state->run(); }) {}
 

@@ -1,62 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // On the loopback alone: the multicast group is never sent to on another interface.
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <array>
 #include <optional>
 #include <thread>
 #include <vector>
 
 #include "geoloc/io/output/cot_connection.hpp"
+#include "io/output/loopback_socket.hpp"
 
 namespace geoloc::io {
 namespace {
 
 using namespace std::chrono_literals;
 using Clock = CotConnection::Clock;
-
-/// A socket of the test on 127.0.0.1.
-class LoopbackSocket {
- public:
-  explicit LoopbackSocket(int type, std::uint16_t port = 0) : descriptor_(socket(AF_INET, type, 0)) {
-    const int reuse = 1;
-    setsockopt(descriptor_, SOL_SOCKET, SO_REUSEADDR, &reuse, sizeof reuse);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    address.sin_port = htons(port);
-    socklen_t size = sizeof address;
-    EXPECT_EQ(bind(descriptor_, reinterpret_cast<sockaddr*>(&address), size), 0);
-    if (type == SOCK_STREAM) listen(descriptor_, 1);
-    getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address), &size);
-    port_ = ntohs(address.sin_port);
-    const timeval patience{5, 0};
-    setsockopt(descriptor_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-  }
-  ~LoopbackSocket() { close(descriptor_); }
-  LoopbackSocket(const LoopbackSocket&) = delete;
-  LoopbackSocket& operator=(const LoopbackSocket&) = delete;
-
-  int descriptor() const { return descriptor_; }
-  std::uint16_t port() const { return port_; }
-  std::string url(const char* transport) const {
-    return std::string(transport) + "://127.0.0.1:" + std::to_string(port_);
-  }
-
- private:
-  int descriptor_;
-  std::uint16_t port_ = 0;
-};
-
-std::string receive(int descriptor) {
-  std::array<char, 2000> buffer;
-  const ssize_t size = recv(descriptor, buffer.data(), buffer.size(), 0);
-  return {buffer.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
-}
+using testing::LoopbackSocket;
+using testing::receive;
 
 struct Connected {
   explicit Connected(const std::string& url, const CotConfig& config = {})
@@ -145,6 +106,21 @@ TEST(CotConnection, AServerThatTakesNothingIsGivenUpAndNothingWaits) {
   ASSERT_GE(sender.connection.descriptor(), 0);
   sender.connection.poll(Clock::now() + 11s);
   EXPECT_LT(sender.connection.descriptor(), 0);
+}
+
+TEST(CotConnection, AServerThatHangsUpOnEveryoneIsAskedLessAndLessOften) {
+  const LoopbackSocket server(SOCK_STREAM);
+  fcntl(server.descriptor(), F_SETFL, O_NONBLOCK);
+  Connected sender(server.url("tcp"));
+  auto now = Clock::now();
+  for (int i = 0; i < 600; ++i) {  // a minute
+    sender.connection.poll(now);
+    now += 100ms;
+    const int client = accept(server.descriptor(), nullptr, nullptr);
+    if (client >= 0) close(client);
+  }
+  EXPECT_LE(sender.connection.counts().connections, 7U);
+  EXPECT_GE(sender.connection.counts().connections, 2U);
 }
 
 TEST(CotConnection, ADeadServerIsAskedLessAndLessOften) {

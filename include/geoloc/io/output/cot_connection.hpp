@@ -72,6 +72,7 @@ class CotConnection {
   int descriptor_ = -1;
   bool is_connecting_ = false;
   std::string pending_;  // TCP: not taken by the system yet
+  Clock::time_point connected_at_{};
   Clock::time_point moved_at_{};
   Clock::time_point next_attempt_{};
   std::chrono::seconds backoff_{1};

@@ -19,6 +19,9 @@ struct ErrorEllipse {
   double azimuth_deg = 0.0;  ///< of the major axis, from true north, clockwise, in [0, 180)
 };
 
+/// Ellipses are drawn so large in pictures and on maps.
+inline constexpr double kDrawnSigmas = 2.0;
+
 ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance);
 
 /// Over the ground, when last seen.

@@ -67,7 +67,6 @@ class SinkRunner {
   struct State;
 
   std::string name_;
-  std::chrono::milliseconds patience_;
   std::shared_ptr<State> state_;  // the thread's too: it may outlive this object
   std::thread thread_;
 };

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+// Of MAV_CMD and MAV_RESULT, where the generated headers would be a heavy way to have them.
+namespace geoloc::io {
+
+inline constexpr std::uint16_t kSetMessageInterval = 511;
+inline constexpr std::uint16_t kRequestMessage = 512;
+inline constexpr std::uint16_t kRequestCameraInformation = 521;
+inline constexpr std::uint16_t kTrackPoint = 2004;
+inline constexpr std::uint16_t kStopTracking = 2010;
+
+inline constexpr std::uint8_t kAccepted = 0;
+inline constexpr std::uint8_t kRejectedForNow = 1;
+inline constexpr std::uint8_t kDenied = 2;
+inline constexpr std::uint8_t kUnsupported = 3;
+inline constexpr std::uint8_t kInProgress = 5;
+
+}  // namespace geoloc::io
