@@ -150,18 +150,23 @@ std::string estimator(const EstimatorReport& report) {
 }
 
 std::string object(const ObjectReport& object, bool is_confirmed) {
-  return text_of({{"id", object.id},
-                  {"confirmed", is_confirmed},
-                  {"name", object.class_name},
-                  {"class", object.class_id},
-                  {"at", point(object.position_in_enu)},
-                  {"major_m", decimals(object.ellipse.sigma_major_m, 3)},
-                  {"minor_m", decimals(object.ellipse.sigma_minor_m, 3)},
-                  {"azimuth_deg", decimals(object.ellipse.azimuth_deg, 0)},
-                  {"confidence", decimals(object.confidence, 3)},
-                  {"hits", object.hits},
-                  {"first_seen", milliseconds(object.first_seen)},
-                  {"last_seen", milliseconds(object.last_seen)}});
+  ordered_json json{{"id", object.id},
+                    {"confirmed", is_confirmed},
+                    {"name", object.class_name},
+                    {"class", object.class_id},
+                    {"at", point(object.position_in_enu)},
+                    {"major_m", decimals(object.ellipse.sigma_major_m, 3)},
+                    {"minor_m", decimals(object.ellipse.sigma_minor_m, 3)},
+                    {"azimuth_deg", decimals(object.ellipse.azimuth_deg, 0)},
+                    {"confidence", decimals(object.confidence, 3)},
+                    {"hits", object.hits},
+                    {"first_seen", milliseconds(object.first_seen)},
+                    {"last_seen", milliseconds(object.last_seen)}};
+  if (object.course) {
+    json["speed_mps"] = decimals(object.course->speed_mps, 2);
+    json["course_deg"] = decimals(object.course->direction_deg, 0);
+  }
+  return text_of(json);
 }
 
 std::string details(const ObjectReport& report, const std::string& object_json,

@@ -65,6 +65,9 @@ function facts(object) {
     ["σ major, minor", `${sigmaText(object.major_m)}, ${sigmaText(object.minor_m)}`],
     ["Major axis", `${number(object.azimuth_deg, 0)}° from north`],
     ["Confidence", `${number(100 * object.confidence, 1)} %`],
+    ...(object.speed_mps === undefined ? [] : [
+      ["Speed, course", `${number(object.speed_mps, 1)} m/s, ${number(object.course_deg, 0)}°`],
+    ]),
     ["Hits", String(object.hits)],
     ["First seen", `${clock(object.first_seen)} UTC`],
     ["Last seen", `${clock(object.last_seen)} UTC`],
