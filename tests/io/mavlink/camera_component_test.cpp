@@ -67,8 +67,10 @@ class CameraComponentTest : public ::testing::Test {
   /// Latitude of what it tracks.
   double tracked_latitude_deg(Duration after_start) {
     for (const mavlink_message_t& message : poll(after_start)) {
-      if (message.msgid == MAVLINK_MSG_ID_CAMERA_TRACKING_GEO_STATUS)
-        return mavlink_msg_camera_tracking_geo_status_get_lat(&message) / 1e7;
+      if (message.msgid != MAVLINK_MSG_ID_CAMERA_TRACKING_GEO_STATUS) continue;
+      mavlink_camera_tracking_geo_status_t status;
+      mavlink_msg_camera_tracking_geo_status_decode(&message, &status);
+      return status.lat / 1e7;
     }
     return std::nan("");
   }
@@ -169,9 +171,10 @@ TEST_F(CameraComponentTest, AnImageCentreAboveTheHorizonIsAtInfinity) {
   command(MAV_CMD_REQUEST_MESSAGE, 271.0F);
   const auto said = poll(0s);
   ASSERT_EQ(count(said, MAVLINK_MSG_ID_CAMERA_FOV_STATUS), 1);
-  EXPECT_EQ(mavlink_msg_camera_fov_status_get_lat_image(&said.back()),
-            std::numeric_limits<std::int32_t>::min());
-  EXPECT_NEAR(mavlink_msg_camera_fov_status_get_hfov(&said.back()), 70.0, 0.01);
+  mavlink_camera_fov_status_t view;
+  mavlink_msg_camera_fov_status_decode(&said.back(), &view);
+  EXPECT_EQ(view.lat_image, std::numeric_limits<std::int32_t>::min());
+  EXPECT_NEAR(view.hfov, 70.0, 0.01);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-namespace geoloc::io::testing {
+namespace geoloc::testing {
 
 /// A socket of a test on 127.0.0.1; receiving and accepting give up after 5 s.
 class LoopbackSocket {
@@ -52,4 +52,4 @@ inline std::string receive(int descriptor, int flags = 0) {
   return {buffer.data(), size > 0 ? static_cast<std::size_t>(size) : 0};
 }
 
-}  // namespace geoloc::io::testing
+}  // namespace geoloc::testing

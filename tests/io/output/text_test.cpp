@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
 namespace geoloc::io {
 namespace {
 
@@ -37,6 +41,17 @@ TEST(CleanText, CutsBetweenCharactersAndSaysSo) {
 TEST(AsciiText, IsPrintableAndBounded) {
   EXPECT_EQ(ascii_text("t\xC3\xA9\x01\xFF", 50), "t???");
   EXPECT_EQ(ascii_text("abcdef", 3), "abc");
+}
+
+TEST(AnyBytes, StayInTheirField) {
+  std::mt19937 generator(3);
+  const std::string likely = "\xC3\xA9\xE2\x98\x83\xF0\x9F\xED\xA0<>&\"',=\n\x1B\x7Fz";
+  std::uniform_int_distribution<std::size_t> pick(0, likely.size() - 1);
+  for (int i = 0; i < 2000; ++i) {
+    std::string name;
+    for (int length = i % 40; length > 0; --length) name += likely[pick(generator)];
+    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(name.data()), name.size());
+  }
 }
 
 }  // namespace
