@@ -35,8 +35,8 @@ class LabelledImages : public ::testing::Test {
 const auto kGoOn = [](int) { return true; };
 
 TEST_F(LabelledImages, AreTheSameForTheSameSeed) {
-  ASSERT_TRUE(write_labelled_images(2, 3, folder_ / "a", kGoOn));
-  ASSERT_TRUE(write_labelled_images(2, 3, folder_ / "b", kGoOn));
+  ASSERT_TRUE(write_labelled_images(2, 3, ImageSet::kTraining, folder_ / "a", kGoOn));
+  ASSERT_TRUE(write_labelled_images(2, 3, ImageSet::kTraining, folder_ / "b", kGoOn));
   for (const char* const file :
        {"images/00000.jpg", "images/00001.jpg", "labels/00000.txt", "labels/00001.txt"}) {
     ASSERT_TRUE(fs::exists(folder_ / "a" / file));
@@ -45,7 +45,7 @@ TEST_F(LabelledImages, AreTheSameForTheSameSeed) {
 }
 
 TEST_F(LabelledImages, CarryTheLabelsOfTheirShots) {
-  ASSERT_TRUE(write_labelled_images(1, 4, folder_ / "set", kGoOn));
+  ASSERT_TRUE(write_labelled_images(1, 4, ImageSet::kTraining, folder_ / "set", kGoOn));
   const auto labels = labels_of(random_shot(4, 0));
   std::ifstream file(folder_ / "set/labels/00000.txt");
   for (const VisibleBox& label : labels) {
@@ -63,13 +63,14 @@ TEST_F(LabelledImages, CarryTheLabelsOfTheirShots) {
 }
 
 TEST_F(LabelledImages, LeaveNothingBehindWhenInterrupted) {
-  EXPECT_FALSE(write_labelled_images(5, 1, folder_ / "set", [](int done) { return done < 1; }));
+  EXPECT_FALSE(
+      write_labelled_images(5, 1, ImageSet::kTraining, folder_ / "set", [](int done) { return done < 1; }));
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(LabelledImages, NeverTouchAFolderThatExists) {
   fs::create_directory(folder_ / "set");
-  EXPECT_THROW(write_labelled_images(1, 1, folder_ / "set", kGoOn), std::runtime_error);
+  EXPECT_THROW(write_labelled_images(1, 1, ImageSet::kTraining, folder_ / "set", kGoOn), std::runtime_error);
   EXPECT_TRUE(fs::is_empty(folder_ / "set"));
 }
 
