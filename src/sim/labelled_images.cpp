@@ -37,12 +37,12 @@ class Grounds {
 
 /// Share of the object's square that no later object hides.
 double uncovered_fraction(const std::vector<PlacedObject>& objects, std::size_t index) {
-  constexpr int kSamples = 24;  // along each side
+  constexpr int kProbes = 24;  // along each side
   const PlacedObject& object = objects[index];
   const Eigen::Matrix2d enu_from_object = object_from_enu(object).transpose();
   int seen = 0;
-  for (int i = 0; i < kSamples * kSamples; ++i) {
-    const Eigen::Vector2d unit((i % kSamples + 0.5) / kSamples - 0.5, (i / kSamples + 0.5) / kSamples - 0.5);
+  for (int i = 0; i < kProbes * kProbes; ++i) {
+    const Eigen::Vector2d unit((i % kProbes + 0.5) / kProbes - 0.5, (i / kProbes + 0.5) / kProbes - 0.5);
     const Eigen::Vector2d at = object.position_in_enu + enu_from_object * (object.size_m * unit);
     const auto hides = [&](const PlacedObject& other) {
       const Eigen::Vector2d in_other = object_from_enu(other) * (at - other.position_in_enu);
@@ -51,7 +51,7 @@ double uncovered_fraction(const std::vector<PlacedObject>& objects, std::size_t 
     seen +=
         std::any_of(objects.begin() + static_cast<std::ptrdiff_t>(index) + 1, objects.end(), hides) ? 0 : 1;
   }
-  return static_cast<double>(seen) / (kSamples * kSamples);
+  return static_cast<double>(seen) / (kProbes * kProbes);
 }
 
 /// Angle between the line of sight to the object and the vertical.
