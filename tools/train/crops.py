@@ -8,13 +8,29 @@ import numpy as np
 
 from dataset import LEAST_SIDE_PX, Example
 
-TARGET_SHARE = 0.5  # of the crops show a target for certain,
-LOOK_ALIKE_SHARE = 0.35  # of them a look-alike, the others anything
 SCALES = (0.75, 1.33)
-MOSAIC_SHARE = (
-    0.6  # of the crops are put together from four, which shows four times as many objects at no cost
-)
 CROP_VISIBLE = 0.5  # a target of which less is left in the crop is neither right nor wrong
+CONFUSABLE = {
+    "bullseye",
+    "checker",
+    "quartered_disc",
+    "wheel",
+    "tyre",
+    "ring",
+    "manhole",
+    "cross",
+    "black_panel",
+}
+
+
+@dataclass
+class Diet:
+    """What the crops show."""
+
+    targets: float  # share of the crops that show a target for certain,
+    look_alikes: float  # and a look-alike; the others anything
+    mosaics: float  # share put together from four crops, which shows four times as many objects at no cost
+    confusable: float  # how much rather a confusable look-alike than another is shown
 
 
 @dataclass
@@ -24,16 +40,23 @@ class Crop:
     is_taught: np.ndarray  # K
 
 
-def random_corner(example: Example, side: int, random: np.random.Generator) -> np.ndarray:
+def random_look_alike(example: Example, diet: Diet, random: np.random.Generator) -> np.ndarray:
+    weights = np.array([diet.confusable if kind in CONFUSABLE else 1.0 for kind in example.kinds])
+    return example.look_alikes[random.choice(len(weights), p=weights / weights.sum())]
+
+
+def random_corner(example: Example, side: int, diet: Diet, random: np.random.Generator) -> np.ndarray:
     """Left and top of a square of the image."""
     height, width = example.image.shape[:2]
     most = np.array([width - side, height - side])
     choice = random.random()
-    boxes = example.targets if choice < TARGET_SHARE else example.look_alikes
-    if choice > TARGET_SHARE + LOOK_ALIKE_SHARE or len(boxes) == 0:
+    if choice < diet.targets and len(example.targets):
+        box = example.targets[random.integers(len(example.targets))]
+    elif choice < diet.targets + diet.look_alikes and len(example.look_alikes):
+        box = random_look_alike(example, diet, random)
+    else:
         return random.integers(0, most + 1)
-    middle = boxes[random.integers(len(boxes)), :2]
-    return np.clip(middle - side * random.uniform(0.1, 0.9, 2), 0, most).astype(int)
+    return np.clip(box[:2] - side * random.uniform(0.1, 0.9, 2), 0, most).astype(int)
 
 
 def part_inside(targets: np.ndarray, size: int) -> np.ndarray:
@@ -43,11 +66,11 @@ def part_inside(targets: np.ndarray, size: int) -> np.ndarray:
     return inside.prod(1) / targets[:, 2:].prod(1)
 
 
-def random_crop(example: Example, size: int, random: np.random.Generator) -> Crop:
+def random_crop(example: Example, size: int, diet: Diet, random: np.random.Generator) -> Crop:
     """A square of size px out of the example, at a random scale."""
     scale = np.exp(random.uniform(*np.log(SCALES)))
     side = int(round(size / scale))
-    left, top = random_corner(example, side, random)
+    left, top = random_corner(example, side, diet, random)
     part = example.image[top : top + side, left : left + side]
     image = cv2.resize(part, (size, size), interpolation=cv2.INTER_AREA if side > size else cv2.INTER_LINEAR)
     targets = example.targets.copy()
@@ -63,10 +86,14 @@ def random_crop(example: Example, size: int, random: np.random.Generator) -> Cro
     return Crop(image, targets[share > 0], is_taught[share > 0])
 
 
-def mosaic(examples: list[Example], size: int, random: np.random.Generator) -> Crop:
+def confusable(examples: list[Example]) -> list[Example]:
+    return [example for example in examples if CONFUSABLE.intersection(example.kinds)]
+
+
+def mosaic(examples: list[Example], size: int, diet: Diet, random: np.random.Generator) -> Crop:
     """Four crops of half the size side by side."""
     half = size // 2
-    parts = [random_crop(example, half, random) for example in examples]
+    parts = [random_crop(example, half, diet, random) for example in examples]
     corners = np.float32([[0, 0, 0, 0], [half, 0, 0, 0], [0, half, 0, 0], [half, half, 0, 0]])
     rows = [np.hstack([part.image for part in parts[:2]]), np.hstack([part.image for part in parts[2:]])]
     return Crop(
@@ -76,11 +103,13 @@ def mosaic(examples: list[Example], size: int, random: np.random.Generator) -> C
     )
 
 
-def varied(example: Example, all_examples: list[Example], size: int, random: np.random.Generator) -> Crop:
-    if random.random() >= MOSAIC_SHARE:
-        return flipped(random_crop(example, size, random), random)
-    others = [all_examples[i] for i in random.integers(len(all_examples), size=3)]
-    return flipped(mosaic([example, *others], size, random), random)
+def varied(
+    example: Example, partners: list[Example], size: int, diet: Diet, random: np.random.Generator
+) -> Crop:
+    if random.random() >= diet.mosaics:
+        return flipped(random_crop(example, size, diet, random), random)
+    others = [partners[i] for i in random.integers(len(partners), size=3)]
+    return flipped(mosaic([example, *others], size, diet, random), random)
 
 
 def flipped(crop: Crop, random: np.random.Generator) -> Crop:
@@ -106,10 +135,11 @@ def recoloured(image: np.ndarray, random: np.random.Generator) -> np.ndarray:
 
 
 def training_batch(
-    examples: list[Example], size: int, random: np.random.Generator
+    examples: list[Example], partners: list[Example], size: int, diet: Diet, random: np.random.Generator
 ) -> tuple[np.ndarray, list[np.ndarray], list[np.ndarray]]:
-    """Crops as images [B, size, size, 3] (8 bits), their targets [K, 4] and which of these are taught [K]."""
-    crops = [varied(example, examples, size, random) for example in examples]
+    """A crop of each example, many with three of the partners beside it: images [B, size, size, 3] (8 bits), their
+    targets [K, 4] and which of these are taught [K]."""
+    crops = [varied(example, partners, size, diet, random) for example in examples]
     return (
         np.stack([recoloured(crop.image, random) for crop in crops]),
         [crop.targets.astype(np.float32) for crop in crops],

@@ -16,6 +16,9 @@ INPUT_WIDTH = 1280  # of the network
 INPUT_HEIGHT = 736
 FILL = 114  # grey of the letterbox' bars
 LEAST_VISIBLE = 0.5  # of a target that is to be found
+STEEPEST_DEG = (
+    60.0  # of the line of sight to a target that is to be found, from the vertical; steeper ones are taught
+)
 LEAST_SIDE_PX = 8.0  # of its box; smaller ones are neither taught nor held against the network
 
 
@@ -23,11 +26,16 @@ LEAST_SIDE_PX = 8.0  # of its box; smaller ones are neither taught nor held agai
 class Example:
     image: np.ndarray  # height x width x 3, RGB, 8 bits
     targets: np.ndarray  # K x 4, float32: centre x, y, width, height [px]
-    is_taught: np.ndarray  # K: is to be found; the others are neither right nor wrong
+    is_taught: np.ndarray  # K: is an example; the others are neither right nor wrong
     visible: np.ndarray  # K: share of the target that is in the picture and uncovered
     tilt_deg: np.ndarray  # K: of the line of sight from the vertical
     look_alikes: np.ndarray  # M x 4, as the targets
     kinds: list[str]  # M: what they are
+
+    @property
+    def is_demanded(self) -> np.ndarray:
+        """K: is to be found; the others are neither demanded nor counted."""
+        return self.is_taught & (self.tilt_deg <= STEEPEST_DEG)
 
 
 def letterbox(image: np.ndarray, input_width: int, input_height: int) -> tuple[np.ndarray, float, int, int]:

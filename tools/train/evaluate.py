@@ -19,7 +19,7 @@ WANTED_PRECISION = 0.985  # on the validation set: a little more than is wanted 
 THRESHOLDS = np.arange(0.30, 0.91, 0.05)
 TABLE_THRESHOLDS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 SIDE_CLASSES = ((10, 16), (16, 20), (20, 40), (40, 60), (60, 100), (100, 200))
-TILT_CLASSES = ((0, 20), (20, 40), (40, 60), (60, 90))
+TILT_CLASSES = ((0, 20), (20, 40), (40, 60))
 LEAST_COUNT = 20  # a cell of a table with fewer boxes stays empty
 
 

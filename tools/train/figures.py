@@ -87,7 +87,7 @@ def failures(found: list[Found], examples: list[Example], threshold: float, leas
         (example.image, box)
         for picture, example in enumerate(examples)
         for target, box in enumerate(example.targets)
-        if example.is_taught[target] and box[2:].min() >= least_px and (picture, target) not in hit
+        if example.is_demanded[target] and box[2:].min() >= least_px and (picture, target) not in hit
     ]
     tiles = [_tile(examples[one.picture].image, one.box, RED, f"{one.confidence:.2f}") for one in wrong][
         : TILES // 2

@@ -76,7 +76,7 @@ def match(network: Network, examples: list[Example]) -> list[Found]:
             if len(overlaps) and overlaps.max() >= MATCH_OVERLAP:
                 target = int(overlaps.argmax())
                 free[target] = False
-                counts = bool(example.is_taught[target])
+                counts = bool(example.is_demanded[target])
             elif hidden(box, example):
                 counts = False
             found.append(Found(picture, float(confidence), box, target, counts))
@@ -85,6 +85,6 @@ def match(network: Network, examples: list[Example]) -> list[Found]:
 
 def hidden(box: np.ndarray, example: Example) -> bool:
     """The box lies on a target that is too small or too much covered to be demanded."""
-    off = np.abs(example.targets[~example.is_taught, :2] - box[:2])
-    reach = 0.5 * np.maximum(example.targets[~example.is_taught, 2:], box[2:])
+    off = np.abs(example.targets[~example.is_demanded, :2] - box[:2])
+    reach = 0.5 * np.maximum(example.targets[~example.is_demanded, 2:], box[2:])
     return bool((off < reach).all(1).any())

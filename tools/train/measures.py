@@ -15,7 +15,7 @@ WHOLE = 0.98  # of a target that counts as wholly visible
 
 def demanded(examples: list[Example], size: tuple[float, float]) -> int:
     """Number of targets whose shorter side is of this size [px] and that are to be found."""
-    sides = [example.targets[example.is_taught, 2:].min(1) for example in examples if len(example.targets)]
+    sides = [example.targets[example.is_demanded, 2:].min(1) for example in examples if len(example.targets)]
     return int(sum(((side >= size[0]) & (side < size[1])).sum() for side in sides))
 
 

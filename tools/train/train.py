@@ -10,7 +10,7 @@ import numpy as np
 import torch
 from tqdm import tqdm
 
-from crops import training_batch
+from crops import Diet, confusable, training_batch
 from dataset import INPUT_HEIGHT, INPUT_WIDTH, Example, load
 from export import export
 from loss import detection_loss
@@ -22,6 +22,9 @@ CROP_PX = 320
 BATCH = 32
 PEAK_RATE = 3e-3
 WARM_UP_STEPS = 100
+BROAD = Diet(targets=0.5, look_alikes=0.35, mosaics=0.6, confusable=1.0)  # to begin with,
+HARD = Diet(targets=0.4, look_alikes=0.5, mosaics=0.75, confusable=5.0)  # and what it is
+HARD_FROM = 0.58  # of the run on
 AVERAGE_DECAY = 0.998  # the exported weights are a running mean over the last few hundred steps
 
 
@@ -76,6 +79,8 @@ class Training:
         random = np.random.default_rng((self.seed, self.epoch))
         order = random.permutation(len(examples))
         batches = len(order) // BATCH
+        is_hard = self.epoch >= HARD_FROM * self.epochs
+        diet, partners = (HARD, confusable(examples)) if is_hard else (BROAD, examples)
         centres, strides = cells(CROP_PX, CROP_PX)
         self.model.train()
         progress = tqdm(range(batches), desc=f"epoch {self.epoch + 1}/{self.epochs}", mininterval=2.0)
@@ -84,7 +89,7 @@ class Training:
             for group in self.optimizer.param_groups:
                 group["lr"] = rate_at(step, self.epochs * batches)
             chosen = [examples[i] for i in order[batch * BATCH : (batch + 1) * BATCH]]
-            pixels, targets, is_taught = training_batch(chosen, CROP_PX, random)
+            pixels, targets, is_taught = training_batch(chosen, partners, CROP_PX, diet, random)
             images = torch.from_numpy(pixels).permute(0, 3, 1, 2).contiguous().float() / 255.0
             with torch.autocast("cpu", torch.bfloat16, enabled=self.bfloat16):
                 boxes, scores = self.model(images)
@@ -147,7 +152,7 @@ def parse_arguments() -> argparse.Namespace:
     arguments.add_argument(
         "--out", type=Path, required=True, help="the .onnx to write; the checkpoint stands beside it"
     )
-    arguments.add_argument("--epochs", type=int, default=48)
+    arguments.add_argument("--epochs", type=int, default=32)
     arguments.add_argument("--seed", type=int, default=0)
     arguments.add_argument("--threads", type=int, default=2)
     arguments.add_argument(
