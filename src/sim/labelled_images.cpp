@@ -41,15 +41,17 @@ double uncovered_fraction(const std::vector<PlacedObject>& objects, std::size_t 
   const PlacedObject& object = objects[index];
   const Eigen::Matrix2d enu_from_object = object_from_enu(object).transpose();
   int seen = 0;
-  for (int i = 0; i < kProbes * kProbes; ++i) {
-    const Eigen::Vector2d unit((i % kProbes + 0.5) / kProbes - 0.5, (i / kProbes + 0.5) / kProbes - 0.5);
-    const Eigen::Vector2d at = object.position_in_enu + enu_from_object * (object.size_m * unit);
-    const auto hides = [&](const PlacedObject& other) {
-      const Eigen::Vector2d in_other = object_from_enu(other) * (at - other.position_in_enu);
-      return surface_at(other, in_other.cast<float>()).coverage > 0.5f;
-    };
-    seen +=
-        std::any_of(objects.begin() + static_cast<std::ptrdiff_t>(index) + 1, objects.end(), hides) ? 0 : 1;
+  for (int row = 0; row < kProbes; ++row) {
+    for (int column = 0; column < kProbes; ++column) {
+      const Eigen::Vector2d unit((column + 0.5) / kProbes - 0.5, (row + 0.5) / kProbes - 0.5);
+      const Eigen::Vector2d at = object.position_in_enu + enu_from_object * (object.size_m * unit);
+      const auto hides = [&](const PlacedObject& other) {
+        const Eigen::Vector2d in_other = object_from_enu(other) * (at - other.position_in_enu);
+        return surface_at(other, in_other.cast<float>()).coverage > 0.5f;
+      };
+      const auto later = objects.begin() + static_cast<std::ptrdiff_t>(index) + 1;
+      seen += std::any_of(later, objects.end(), hides) ? 0 : 1;
+    }
   }
   return static_cast<double>(seen) / (kProbes * kProbes);
 }

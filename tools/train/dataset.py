@@ -16,9 +16,7 @@ INPUT_WIDTH = 1280  # of the network
 INPUT_HEIGHT = 736
 FILL = 114  # grey of the letterbox' bars
 LEAST_VISIBLE = 0.5  # of a target that is to be found
-STEEPEST_DEG = (
-    60.0  # of the line of sight to a target that is to be found, from the vertical; steeper ones are taught
-)
+STEEPEST_DEG = 60.0  # from the vertical; targets seen from flatter are taught, but not demanded
 LEAST_SIDE_PX = 8.0  # of its box; smaller ones are neither taught nor held against the network
 
 

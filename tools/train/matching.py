@@ -19,9 +19,7 @@ class Network:
 
     width: int  # of its input
     height: int
-    run: Callable[
-        [np.ndarray], np.ndarray
-    ]  # input [height, width, 3] (RGB) to output [5, N] in YOLO's layout
+    run: Callable[[np.ndarray], np.ndarray]  # [height, width, 3] (RGB, 8 bits) to [5, N] in YOLO's layout
 
 
 @dataclass
