@@ -3,10 +3,10 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 
 #include "app/stop_signal.hpp"
-#include "geoloc/sim/labelled_images.hpp"
 
 namespace geoloc::sim {
 
@@ -17,6 +17,12 @@ CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options) {
   CLI::Option* const out = program.add_option("--out", options.folder, "New folder for them");
   out->group("Labelled pictures");
   images->needs(out);
+  const std::map<std::string, ImageSet> sets{{"train", ImageSet::kTraining},
+                                             {"held-back", ImageSet::kHeldBack}};
+  program.add_option("--grounds", options.set, "train, or held-back: other grounds in another light")
+      ->transform(CLI::CheckedTransformer(sets))
+      ->needs(images)
+      ->group("Labelled pictures");
   return images;
 }
 
@@ -32,7 +38,7 @@ int run_images_mode(const ImagesOptions& options, std::uint64_t seed) {
     return !stop.is_requested();
   };
   try {
-    const bool whole = write_labelled_images(options.count, seed, options.folder, progress);
+    const bool whole = write_labelled_images(options.count, seed, options.set, options.folder, progress);
     std::fputs(whole ? "\n" : "\ninterrupted; nothing is left behind\n", stderr);
     return 0;
   } catch (const std::exception& error) {

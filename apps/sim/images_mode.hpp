@@ -5,14 +5,17 @@
 #include <cstdint>
 #include <string>
 
+#include "geoloc/sim/labelled_images.hpp"
+
 namespace geoloc::sim {
 
 struct ImagesOptions {
   int count = 0;
   std::string folder;
+  ImageSet set = ImageSet::kTraining;
 };
 
-/// Adds --images and --out; returns the one that chooses this mode.
+/// Adds --images, --out and --grounds; returns the one that chooses this mode.
 CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options);
 
 /// Writes the labelled pictures; the program's exit status.

@@ -134,6 +134,59 @@ Surface look_of_bush(const PlacedObject& object, const Point& at) {
   return {(leaf * std::max(light, 0.12f) * 1.3f).min(1.0f), 1.0f};
 }
 
+/// A tyre on a bright rim with spokes.
+Surface look_of_wheel(const PlacedObject& object, const Point& at) {
+  const float radius = at.norm();
+  if (radius > 0.5f) return kNothing;
+  if (radius > 0.34f) return painted(0.1f + 0.06f * trait(object, 3));
+  const float spokes = 3.0f + std::floor(4.0f * trait(object, 2));
+  const bool open = radius > 0.09f && radius < 0.29f && std::cos(spokes * std::atan2(at.y(), at.x())) > 0.2f;
+  return painted((open ? 0.12f : 0.5f + 0.4f * trait(object, 4)));
+}
+
+/// Cast iron: rings of slots in a bright or rusty frame.
+Surface look_of_manhole(const PlacedObject& object, const Point& at) {
+  const float radius = at.norm();
+  if (radius > 0.5f) return kNothing;
+  const float slots = 8.0f + 4.0f * std::floor(4.0f * trait(object, 2));
+  const bool frame = radius > 0.42f;
+  const bool slot = std::sin(40.0f * radius) > 0.1f && std::sin(slots * std::atan2(at.y(), at.x())) > -0.3f;
+  const float iron = 0.25f + 0.2f * trait(object, 3);
+  Surface surface = painted(frame ? 0.3f + 0.4f * trait(object, 4) : slot ? 0.4f * iron : iron);
+  surface.reflectance *= Eigen::Array3f(0.92f, 0.97f, 1.04f);
+  return surface;
+}
+
+/// As on a road: a shaft and a head.
+Surface look_of_arrow(const PlacedObject& object, const Point& at) {
+  const bool shaft = at.x() > -0.5f && at.x() < 0.1f && std::abs(at.y()) < 0.05f + 0.05f * trait(object, 2);
+  const bool head = at.x() >= 0.1f && at.x() < 0.5f && std::abs(at.y()) < 0.6f * (0.5f - at.x());
+  if (!shaft && !head) return kNothing;
+  return painted(0.9f);
+}
+
+/// As on crash-test dummies: no square around it and no dot in it.
+Surface look_of_quartered_disc(const PlacedObject& object, const Point& at) {
+  const float radius = at.norm();
+  if (radius > 0.5f) return kNothing;
+  const bool rim = radius > 0.5f - 0.08f * trait(object, 2);
+  const Eigen::Array3f dark =
+      trait(object, 3) < 0.6f ? Eigen::Array3f(0.08f, 0.08f, 0.08f) : Eigen::Array3f(0.1f, 0.75f, 0.85f);
+  if (rim || at.x() * at.y() < 0.0f) return {dark, 1.0f};
+  return painted(0.9f);
+}
+
+/// Rings about a disc, on a square panel or not.
+Surface look_of_bullseye(const PlacedObject& object, const Point& at) {
+  if (!in_square(at)) return kNothing;
+  const float radius = at.norm();
+  const bool on_panel = trait(object, 2) < 0.6f;
+  if (radius > 0.45f) return on_panel ? painted(0.9f) : kNothing;
+  const float rings = 1.0f + std::floor(3.0f * trait(object, 3));
+  const bool dark = static_cast<int>(radius / 0.45f * rings * 2.0f) % 2 == (on_panel ? 1 : 0);
+  return painted(dark ? 0.08f : 0.9f);
+}
+
 }  // namespace
 
 Eigen::Vector2f half_extent_m(const PlacedObject& object) {
@@ -169,6 +222,16 @@ Surface surface_at(const PlacedObject& object, const Eigen::Vector2f& point_in_o
       return look_of_road_line(object, point_in_object_m);
     case ObjectKind::kBush:
       return look_of_bush(object, at);
+    case ObjectKind::kWheel:
+      return look_of_wheel(object, at);
+    case ObjectKind::kManhole:
+      return look_of_manhole(object, at);
+    case ObjectKind::kArrow:
+      return look_of_arrow(object, at);
+    case ObjectKind::kQuarteredDisc:
+      return look_of_quartered_disc(object, at);
+    case ObjectKind::kBullseye:
+      return look_of_bullseye(object, at);
   }
   return kNothing;
 }

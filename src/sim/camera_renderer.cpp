@@ -10,6 +10,7 @@
 #include "ground_point.hpp"
 #include "object_painter.hpp"
 #include "sensor.hpp"
+#include "shadow_painter.hpp"
 
 namespace geoloc::sim {
 
@@ -26,13 +27,15 @@ std::vector<std::string> RenderSettings::problems() const {
 
 struct CameraRenderer::Buffers {
   Buffers(const CameraIntrinsics& intrinsics, const RenderSettings& settings)
-      : grid(CameraModel(intrinsics)),
+      : camera(intrinsics),
+        grid(camera),
         size(intrinsics.width_px, intrinsics.height_px),
         light(grid, size, settings),
         ground_painter(grid),
         sharp(size, CV_8UC3),
         noise(size, settings.noise_sigma, settings.seed) {}
 
+  CameraModel camera;
   GroundGrid grid;
   cv::Size size;
   Light light;
@@ -43,11 +46,11 @@ struct CameraRenderer::Buffers {
 
 CameraRenderer::CameraRenderer(const CameraIntrinsics& intrinsics, const Scene& scene,
                                const RenderSettings& settings)
-    : CameraRenderer(intrinsics, scene.objects, make_ground(scene.ground, scene.ground_seed), settings) {}
+    : CameraRenderer(intrinsics, scene, make_ground(scene.ground, scene.ground_seed), settings) {}
 
-CameraRenderer::CameraRenderer(const CameraIntrinsics& intrinsics, std::vector<PlacedObject> objects,
+CameraRenderer::CameraRenderer(const CameraIntrinsics& intrinsics, const Scene& scene,
                                std::shared_ptr<const Ground> ground, const RenderSettings& settings)
-    : objects_(std::move(objects)), ground_(std::move(ground)), settings_(settings) {
+    : objects_(scene.objects), shadows_(scene.shadows), ground_(std::move(ground)), settings_(settings) {
   throw_if_any(settings.problems());
   buffers_ = std::make_unique<Buffers>(intrinsics, settings);
 }
@@ -64,6 +67,7 @@ void CameraRenderer::render(const Rigid3d& enu_from_camera, const Eigen::Vector2
     work.grid.look_from(enu_from_camera);
     work.ground_painter.paint(work.grid, *ground_, work.light, work.sharp);
     for (const PlacedObject& object : objects_) paint_object(work.grid, work.light, object, work.sharp);
+    for (const Shadow& shadow : shadows_) cast_shadow(work.camera, enu_from_camera, shadow, work.sharp);
   } else {
     work.sharp.setTo(cv::Scalar::all(128));
   }

@@ -15,7 +15,7 @@ Scene make_run_scene(const std::vector<Eigen::Vector2d>& targets_in_enu, int dis
                      std::uint64_t seed) {
   Random random(stream_seed(seed, RandomStream::kScene));
   Scene scene;
-  scene.ground = static_cast<GroundStyle>(random.index(kGroundStyleCount));
+  scene.ground = static_cast<GroundStyle>(random.index(kFlightGroundStyleCount));
   scene.ground_seed = seed;
   std::vector<PlacedObject> targets;
   for (const Eigen::Vector2d& position_in_enu : targets_in_enu) {

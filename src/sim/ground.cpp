@@ -40,6 +40,22 @@ Palette palette_of(GroundStyle style) {
       return {{158, 166, 168}, {146, 152, 154}, {168, 175, 178}, 0.05f};
     case GroundStyle::kField:
       return {{62, 92, 98}, {56, 100, 84}, {76, 106, 128}, 0.08f};
+    case GroundStyle::kSnow:
+      return {{214, 206, 200}, {226, 220, 216}, {176, 172, 170}, 0.04f};
+    case GroundStyle::kWater:
+      return {{104, 92, 68}, {84, 76, 52}, {128, 122, 102}, 0.06f};
+    case GroundStyle::kCrops:
+      return {{70, 134, 104}, {84, 160, 150}, {66, 92, 110}, 0.08f};
+    case GroundStyle::kForestFloor:
+      return {{52, 74, 96}, {44, 82, 62}, {60, 96, 140}, 0.12f};
+    case GroundStyle::kPavingStones:
+      return {{122, 124, 130}, {104, 110, 126}, {132, 132, 134}, 0.04f};
+    case GroundStyle::kCrackedMud:
+      return {{128, 146, 160}, {112, 132, 148}, {142, 160, 172}, 0.05f};
+    case GroundStyle::kMeadow:
+      return {{66, 126, 96}, {76, 148, 140}, {92, 140, 112}, 0.10f};
+    case GroundStyle::kRock:
+      return {{112, 114, 120}, {84, 90, 96}, {136, 142, 150}, 0.12f};
   }
   return {{128, 128, 128}, {128, 128, 128}, {128, 128, 128}, 0.0f};
 }

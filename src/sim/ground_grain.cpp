@@ -178,6 +178,86 @@ cv::Mat field(Canvas& canvas) {
   return coloured(canvas, wave(canvas, 32, 0.35), {-0.10, -0.02, -0.16}, 0.03);
 }
 
+cv::Mat snow(Canvas& canvas) {
+  roughen(canvas, 0.03, 0.8);
+  add_stones(canvas, canvas.per_square_metre(0.3), 0.02, 0.15, 0.2);
+  return coloured(canvas, wave(canvas, 32, 3.0), {0.02, 0.03, 0.035}, 0.003);
+}
+
+/// Wavelets that glitter.
+cv::Mat water(Canvas& canvas) {
+  const cv::Mat ripples = wave(canvas, 64, 4.0), swell = wave(canvas, 16, 2.0).t();
+  cv::multiply(canvas.light, 1.0 + 0.14 * ripples + 0.1 * swell, canvas.light);
+  roughen(canvas, 0.06, 0.9);
+  add_blades(canvas, canvas.per_square_metre(3), 0.10, 0.9);
+  return coloured(canvas, ripples.mul(swell), {0.06, 0.05, 0.03}, 0.01);
+}
+
+/// Rows 0.75 m apart.
+cv::Mat crops(Canvas& canvas) {
+  const cv::Mat rows = wave(canvas, 32, 0.2);
+  cv::multiply(canvas.light, 1.0 + 0.25 * rows, canvas.light);
+  roughen(canvas, 0.2, 1.0);
+  add_blades(canvas, canvas.per_square_metre(350), 0.18, 0.5);
+  return coloured(canvas, rows, {-0.12, 0.06, -0.14}, 0.03);
+}
+
+/// Leaves and twigs.
+cv::Mat forest_floor(Canvas& canvas) {
+  roughen(canvas, 0.22, 1.0);
+  add_stones(canvas, canvas.per_square_metre(160), 0.03, 0.10, 0.6);
+  add_blades(canvas, canvas.per_square_metre(20), 0.6, 0.6);
+  return coloured(canvas, {}, {}, 0.08);
+}
+
+/// Setts in courses, each of a shade of its own, every other course shifted by half a sett.
+cv::Mat paving_stones(Canvas& canvas) {
+  constexpr int kCourses = 128, kJoint = 2;
+  const int pitch = canvas.size() / kCourses, length = 2 * pitch;
+  for (int course = 0; course < kCourses; ++course) {
+    for (int left = 0; left < canvas.size(); left += length) {
+      const double shade = canvas.uniform(0.8, 1.2);
+      const int shifted = (left + course % 2 * pitch) % canvas.size();
+      for (int half = 0; half < 2; ++half) {
+        const cv::Rect part((shifted + half * pitch) % canvas.size(), course * pitch, pitch, pitch);
+        canvas.light(part).setTo(shade);
+        if (half == 0) canvas.light(cv::Rect(part.x, part.y, kJoint, pitch)).setTo(0.55);
+        canvas.light(cv::Rect(part.x, part.y, pitch, kJoint)).setTo(0.55);
+      }
+    }
+  }
+  roughen(canvas, 0.07, 1.0);
+  return coloured(canvas, {}, {}, 0.02);
+}
+
+cv::Mat cracked_mud(Canvas& canvas) {
+  roughen(canvas, 0.05, 0.9);
+  add_cracks(canvas, canvas.per_square_metre(4), 1.5);
+  add_cracks(canvas, canvas.per_square_metre(0.3), 8.0);
+  return coloured(canvas, {}, {}, 0.01);
+}
+
+/// High grass with flowers.
+cv::Mat meadow(Canvas& canvas) {
+  roughen(canvas, 0.28, 0.9);
+  add_blades(canvas, canvas.per_square_metre(250), 0.25, 0.6);
+  cv::Mat flowers(canvas.light.size(), CV_32FC1, cv::Scalar(0.0));
+  for (int i = 0; i < canvas.per_square_metre(12); ++i) {
+    cv::circle(flowers, fixed(canvas.anywhere()), 2 << kShift, 1.0, -1, cv::LINE_8, kShift);
+  }
+  return coloured(canvas, flowers, {0.3, 0.9, 1.4}, 0.05);
+}
+
+/// Layers and clefts.
+cv::Mat rock(Canvas& canvas) {
+  const cv::Mat layers = wave(canvas, 16, 6.0);
+  cv::multiply(canvas.light, 1.0 + 0.18 * layers, canvas.light);
+  roughen(canvas, 0.16, 0.85);
+  add_cracks(canvas, canvas.per_square_metre(0.8), 5.0);
+  add_stones(canvas, canvas.per_square_metre(6), 0.05, 0.4, 0.4);
+  return coloured(canvas, layers, {-0.03, 0.0, 0.03}, 0.01);
+}
+
 }  // namespace
 
 cv::Mat ground_grain(GroundStyle style, int size, double texel_m, cv::RNG& random) {
@@ -199,6 +279,22 @@ cv::Mat ground_grain(GroundStyle style, int size, double texel_m, cv::RNG& rando
       return concrete(canvas);
     case GroundStyle::kField:
       return field(canvas);
+    case GroundStyle::kSnow:
+      return snow(canvas);
+    case GroundStyle::kWater:
+      return water(canvas);
+    case GroundStyle::kCrops:
+      return crops(canvas);
+    case GroundStyle::kForestFloor:
+      return forest_floor(canvas);
+    case GroundStyle::kPavingStones:
+      return paving_stones(canvas);
+    case GroundStyle::kCrackedMud:
+      return cracked_mud(canvas);
+    case GroundStyle::kMeadow:
+      return meadow(canvas);
+    case GroundStyle::kRock:
+      return rock(canvas);
   }
   return coloured(canvas, {}, {}, 0.0);
 }

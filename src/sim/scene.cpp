@@ -17,7 +17,7 @@ struct SizeRange {
   double most_m;
 };
 
-constexpr std::array<SizeRange, 11> kDistractors{{
+constexpr std::array<SizeRange, kDistractorKinds> kDistractors{{
     {ObjectKind::kDrainCover, 0.5, 0.9},
     {ObjectKind::kTyre, 0.55, 1.0},
     {ObjectKind::kWhitePanel, 0.4, 1.2},
@@ -29,10 +29,15 @@ constexpr std::array<SizeRange, 11> kDistractors{{
     {ObjectKind::kStone, 0.2, 0.9},
     {ObjectKind::kRoadLine, 2.0, 6.0},
     {ObjectKind::kBush, 0.6, 2.5},
+    {ObjectKind::kWheel, 0.5, 0.9},
+    {ObjectKind::kManhole, 0.5, 0.9},
+    {ObjectKind::kArrow, 0.8, 3.0},
+    {ObjectKind::kQuarteredDisc, 0.4, 1.2},
+    {ObjectKind::kBullseye, 0.5, 1.2},
 }};
 
-PlacedObject random_distractor(const Eigen::AlignedBox2d& area_in_enu, Random& random) {
-  const SizeRange& range = kDistractors[static_cast<std::size_t>(random.index(kDistractors.size()))];
+PlacedObject random_distractor(const Eigen::AlignedBox2d& area_in_enu, int kinds, Random& random) {
+  const SizeRange& range = kDistractors[static_cast<std::size_t>(random.index(kinds))];
   PlacedObject object;
   object.kind = range.kind;
   object.position_in_enu.x() = random.uniform(area_in_enu.min().x(), area_in_enu.max().x());
@@ -52,13 +57,13 @@ bool overlap(const PlacedObject& a, const PlacedObject& b) {
 }  // namespace
 
 std::vector<PlacedObject> make_distractors(int count, const Eigen::AlignedBox2d& area_in_enu,
-                                           const std::vector<PlacedObject>& keep_clear_of,
-                                           std::uint64_t seed) {
+                                           const std::vector<PlacedObject>& keep_clear_of, std::uint64_t seed,
+                                           int kinds) {
   constexpr int kTriesEach = 20;
   Random random(seed);
   std::vector<PlacedObject> placed;
   for (int tries = 0; tries < count * kTriesEach && static_cast<int>(placed.size()) < count; ++tries) {
-    const PlacedObject candidate = random_distractor(area_in_enu, random);
+    const PlacedObject candidate = random_distractor(area_in_enu, kinds, random);
     const auto hits = [&](const PlacedObject& other) { return overlap(candidate, other); };
     if (std::any_of(keep_clear_of.begin(), keep_clear_of.end(), hits)) continue;
     if (std::any_of(placed.begin(), placed.end(), hits)) continue;

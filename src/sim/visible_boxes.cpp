@@ -39,23 +39,28 @@ Box box_of(const Eigen::AlignedBox2d& pixels) {
 
 }  // namespace
 
-std::vector<VisibleBox> visible_boxes(const CameraModel& camera, const Rigid3d& enu_from_camera,
-                                      const std::vector<PlacedObject>& objects) {
+std::optional<VisibleBox> visible_box(const CameraModel& camera, const Rigid3d& enu_from_camera,
+                                      const std::vector<PlacedObject>& objects, std::size_t index) {
+  if (!(enu_from_camera.translation.z() > 0.0)) return std::nullopt;  // the ground is seen from above only
   const Rigid3d camera_from_enu = enu_from_camera.inverse();
   const CameraIntrinsics& intrinsics = camera.intrinsics();
   const Eigen::AlignedBox2d image(Eigen::Vector2d(-0.5, -0.5),
                                   Eigen::Vector2d(intrinsics.width_px - 0.5, intrinsics.height_px - 0.5));
+  const auto centre = camera.pixel(camera_from_enu * on_ground(objects[index].position_in_enu));
+  const auto whole = outline_px(camera, camera_from_enu, objects[index]);
+  if (!centre || !whole) return std::nullopt;
+  const Eigen::AlignedBox2d part = whole->intersection(image);
+  const double fraction = part.isEmpty() ? 0.0 : part.volume() / whole->volume();
+  if (!(fraction > 0.0)) return std::nullopt;
+  return VisibleBox{index, box_of(*whole), box_of(part), fraction, *centre};
+}
+
+std::vector<VisibleBox> visible_boxes(const CameraModel& camera, const Rigid3d& enu_from_camera,
+                                      const std::vector<PlacedObject>& objects) {
   std::vector<VisibleBox> boxes;
-  if (!(enu_from_camera.translation.z() > 0.0)) return boxes;  // the ground is seen from above only
   for (std::size_t index = 0; index < objects.size(); ++index) {
     if (objects[index].kind != ObjectKind::kFiducial) continue;
-    const auto centre = camera.pixel(camera_from_enu * on_ground(objects[index].position_in_enu));
-    const auto whole = outline_px(camera, camera_from_enu, objects[index]);
-    if (!centre || !whole) continue;
-    const Eigen::AlignedBox2d part = whole->intersection(image);
-    const double fraction = part.isEmpty() ? 0.0 : part.volume() / whole->volume();
-    if (!(fraction > 0.0)) continue;
-    boxes.push_back({index, box_of(*whole), box_of(part), fraction, *centre});
+    if (const auto box = visible_box(camera, enu_from_camera, objects, index)) boxes.push_back(*box);
   }
   return boxes;
 }

@@ -92,11 +92,35 @@ TEST(CameraRenderer, TheSkyEndsAtTheHorizon) {
   EXPECT_GT(all_sky[0], all_sky[2] + 20.0);
 }
 
+TEST(CameraRenderer, DarkensWhatLiesInAShadowAndNothingElse) {
+  Scene scene;
+  scene.objects = {PlacedObject{}};  // at (0, 0), in the middle of the picture
+  RenderSettings settings;
+  settings.noise_sigma = 0.0;
+  const auto render = [&] {
+    cv::Mat bgr;
+    CameraRenderer(CameraIntrinsics{}, scene, settings).render(pose_above(20.0, 0.0, 0.0, 0.0), {0, 0}, bgr);
+    return bgr;
+  };
+  const cv::Mat lit = render();
+  Shadow western;
+  western.outline_in_enu = {{-2.0, -2.0}, {-2.0, 2.0}, {0.0, 2.0}, {0.0, -2.0}};
+  western.darkness = 0.5;
+  scene.shadows = {western};
+  const cv::Mat shaded = render();
+  const cv::Rect west(600, 340, 36, 40), east(644, 340, 36, 40);  // of the middle: target and ground
+  EXPECT_NEAR(cv::mean(shaded(west))[1] / cv::mean(lit(west))[1], 0.5, 0.02);
+  EXPECT_EQ(cv::norm(shaded(east), lit(east), cv::NORM_INF), 0.0);
+
+  scene.shadows[0].outline_in_enu[0] = {std::numeric_limits<double>::infinity(), 0.0};
+  EXPECT_EQ(cv::norm(render(), lit, cv::NORM_INF), 0.0);
+}
+
 TEST(CameraRenderer, SurvivesAnyPose) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const Rigid3d above = pose_above(20.0, 10.0, 10.0, 0.0);
-  CameraRenderer renderer(barrel_camera(), Scene{{PlacedObject{}}, GroundStyle::kSand, 3});
+  CameraRenderer renderer(barrel_camera(), Scene{{PlacedObject{}}, GroundStyle::kSand, 3, {}});
   cv::Mat bgr;
   for (const double height_m : {-20.0, 0.0, 1e-9, 0.01, 1e4, 1e12, kNan, kInfinity}) {
     for (const double east_m : {0.0, 1e7, -1e15, kNan}) {

@@ -64,7 +64,7 @@ TEST_P(Looks, StayWithinTheirExtentAndRange) {
   EXPECT_TRUE(seen);
 }
 
-INSTANTIATE_TEST_SUITE_P(AllKinds, Looks, ::testing::Range(0, static_cast<int>(ObjectKind::kBush) + 1));
+INSTANTIATE_TEST_SUITE_P(AllKinds, Looks, ::testing::Range(0, static_cast<int>(ObjectKind::kBullseye) + 1));
 
 TEST(Fiducial, LooksTheSameAfterHalfATurnOnly) {
   const PlacedObject target;

@@ -1,108 +1,134 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Precision, recall and centre error on whole pictures, counted as the application would use the model."""
+"""The figures of docs/model.md: chooses the confidence threshold on the validation set, then measures on the held-back
+set. Prints tables in Markdown, and writes precision_recall.svg and failures.jpg."""
 
-from dataclasses import dataclass
+import argparse
+from pathlib import Path
 
 import numpy as np
-import torch
+import onnx
+from tqdm import tqdm
 
-from dataset import Example
-from loss import corners, intersection_over_union
-from model import TargetDetector, cells, decode
+import figures
+from dataset import Example, load
+from matching import Found, match
+from measures import SIZES_PX, WHOLE, CentreErrors, centre_errors, curve, demanded, fit_sigma
+from onnx_model import load_network
 
-SMALLEST_PX = 14.0  # of the full picture: smaller targets are neither demanded nor held against the model
-FULL_PER_INPUT = 2.0  # a 1280 x 720 picture in a 640 x 384 input
-MATCH_OVERLAP = 0.5
-SUPPRESS_OVERLAP = 0.45
+THRESHOLDS = np.arange(0.30, 0.91, 0.05)
+TABLE_THRESHOLDS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
+SIDE_CLASSES = ((10, 16), (16, 20), (20, 40), (40, 60), (60, 100), (100, 200))
+TILT_CLASSES = ((0, 20), (20, 40), (40, 60))
+LEAST_COUNT = 20  # a cell of a table with fewer boxes stays empty
 
 
-@dataclass
-class Quality:
-    recall: float
-    precision: float
-    centre_sigma_px: float  # per axis, of the full picture
-    centre_bias_px: tuple[float, float]
+def name_of(size: tuple[float, float]) -> str:
+    return f"{size[0]:.0f} px and up" if np.isinf(size[1]) else f"{size[0]:.0f} to {size[1]:.0f} px"
 
-    def __str__(self) -> str:
-        bias = ", ".join(f"{value:+.2f}" for value in self.centre_bias_px)
-        return (
-            f"recall {self.recall:.4f}  precision {self.precision:.4f}  "
-            f"centre sigma {self.centre_sigma_px:.2f} px  bias ({bias}) px"
+
+def f_score(recall: np.ndarray, precision: np.ndarray, beta: float) -> np.ndarray:
+    return (1.0 + beta**2) * precision * recall / np.maximum(beta**2 * precision + recall, 1e-9)
+
+
+def choose_threshold(found: list[Found], examples: list[Example]) -> float:
+    """Half way between the best F1 and the best F0.5 of the larger targets: a miss is made good by the next frame, a
+    look-alike is not."""
+    larger = curve(found, examples, SIZES_PX[-1])
+    recall, precision = np.array([larger.at(threshold) for threshold in THRESHOLDS]).T
+    best = [THRESHOLDS[int(np.argmax(f_score(recall, precision, beta)))] for beta in (1.0, 0.5)]
+    return round(float(np.mean(best)), 3)
+
+
+def quality_table(found: list[Found], examples: list[Example], thresholds: list[float]) -> list[str]:
+    names = [f"{name_of(size)} ({demanded(examples, size)})" for size in SIZES_PX]
+    lines = ["| confidence | " + " | ".join(f"{name}: recall | precision" for name in names) + " |"]
+    lines.append("|---" * (1 + 2 * len(names)) + "|")
+    curves = [curve(found, examples, size) for size in SIZES_PX]
+    for threshold in thresholds:
+        values = [
+            f"{recall:.3f} | {precision:.3f}" for recall, precision in (one.at(threshold) for one in curves)
+        ]
+        lines.append(f"| {threshold:.2f} | " + " | ".join(values) + " |")
+    return lines
+
+
+def cell(errors: CentreErrors) -> str:
+    if len(errors.side) < LEAST_COUNT:
+        return ""
+    sigma, bias = errors.sigma(), errors.bias()
+    return f"{sigma[0]:.2f}, {sigma[1]:.2f} ({bias[0]:+.2f}, {bias[1]:+.2f})"
+
+
+def centre_table(errors: CentreErrors) -> list[str]:
+    whole = errors.where(errors.visible >= WHOLE)
+    lines = [
+        "| shorter side | " + " | ".join(f"tilt {low}-{high}°" for low, high in TILT_CLASSES) + " | all |"
+    ]
+    lines.append("|---" * (len(TILT_CLASSES) + 2) + "|")
+    for low, high in (*SIDE_CLASSES, (20, 60)):
+        row = whole.where((whole.side >= low) & (whole.side < high))
+        cells = [cell(row.where((row.tilt_deg >= a) & (row.tilt_deg < b))) for a, b in TILT_CLASSES]
+        lines.append(f"| {low}-{high} px | " + " | ".join([*cells, cell(row)]) + " |")
+    covered = errors.where(errors.visible < WHOLE)
+    lines.append("| cut off or partly covered" + " | " * (1 + len(TILT_CLASSES)) + f"{cell(covered)} |")
+    return lines
+
+
+def wrong_kinds(found: list[Found], examples: list[Example], threshold: float) -> str:
+    """What the wrong boxes lie on, most frequent first."""
+    counts: dict[str, int] = {}
+    for one in found:
+        if one.target >= 0 or not one.counts or one.confidence < threshold:
+            continue
+        example = examples[one.picture]
+        off = np.abs(example.look_alikes[:, :2] - one.box[:2]) if len(example.kinds) else np.empty((0, 2))
+        near = np.flatnonzero((off < 0.5 * example.look_alikes[:, 2:] + 2.0).all(1)) if len(off) else []
+        kind = example.kinds[int(near[0])] if len(near) else "ground"
+        counts[kind] = counts.get(kind, 0) + 1
+    return ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items(), key=lambda item: -item[1]))
+
+
+def found_in(model: Path, examples: list[Example], name: str) -> list[Found]:
+    network = load_network(model)
+    found = []
+    for picture, example in enumerate(tqdm(examples, desc=name, unit="picture", mininterval=2.0)):
+        for one in match(network, [example]):
+            one.picture = picture
+            found.append(one)
+    return found
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser(description=__doc__)
+    arguments.add_argument("model", type=Path)
+    arguments.add_argument("--validation", type=Path, required=True)
+    arguments.add_argument("--held-back", type=Path, required=True)
+    arguments.add_argument("--figures", type=Path, help="folder for the pictures")
+    options = arguments.parse_args()
+    validation, held_back = load(options.validation), load(options.held_back)
+    found = found_in(options.model, validation, "validation")
+    threshold = choose_threshold(found, validation)
+    print(f"confidence chosen on the validation set: {threshold:.2f}")
+    print(
+        "centre sigma fitted there: hypot({:.4f}, {:.4f} * size)".format(
+            *(fit_sigma(centre_errors(found, validation, threshold)) or (np.nan, np.nan))
         )
+    )
+    stored = {entry.key: entry.value for entry in onnx.load(str(options.model)).metadata_props}
+    print(f"stored in the model: {stored.get('geoloc_centre_sigma_px', 'nothing')}\n")
+    print("\n".join(quality_table(found, validation, [threshold])), "\n")
+
+    found = found_in(options.model, held_back, "held back")
+    print("\n".join(quality_table(found, held_back, sorted({*TABLE_THRESHOLDS, threshold}))), "\n")
+    print("\n".join(centre_table(centre_errors(found, held_back, threshold))), "\n")
+    print("wrong boxes:", wrong_kinds(found, held_back, threshold))
+    if options.figures:
+        curves = {name_of(size): curve(found, held_back, size) for size in SIZES_PX}
+        options.figures.mkdir(parents=True, exist_ok=True)
+        (options.figures / "precision_recall.svg").write_text(figures.precision_recall(curves, threshold))
+        sheet = figures.failures(found, held_back, threshold, SIZES_PX[0][0])
+        figures.write(options.figures, "failures.jpg", sheet)
 
 
-def suppressed(boxes: np.ndarray, scores: np.ndarray) -> np.ndarray:
-    """Greedy non-maximum suppression; returns the kept boxes [K, 4], best first."""
-    kept: list[np.ndarray] = []
-    for index in np.argsort(-scores):
-        overlaps = intersection_over_union(
-            torch.tensor(boxes[index]), torch.tensor(np.array(kept).reshape(-1, 4))
-        )
-        if not (overlaps > SUPPRESS_OVERLAP).any():
-            kept.append(boxes[index])
-    return np.array(kept, np.float32).reshape(-1, 4)
-
-
-def detect(output: np.ndarray, threshold: float) -> np.ndarray:
-    """output [5, N] in YOLO's layout; returns boxes [K, 4] (left, top, right, bottom), best first."""
-    sure = output[4] > threshold
-    return suppressed(corners(torch.tensor(output[:4, sure].T)).numpy(), output[4, sure])
-
-
-class Counter:
-    def __init__(self) -> None:
-        self.demanded = self.found = self.right = self.wrong = 0
-        self.errors: list[np.ndarray] = []
-
-    def add(self, detected: np.ndarray, truth: np.ndarray) -> None:
-        free = list(range(len(truth)))
-        demanded = [self._is_demanded(box) for box in truth]
-        self.demanded += sum(demanded)
-        for box in detected:
-            overlaps = [
-                float(intersection_over_union(torch.tensor(box), torch.tensor(truth[i]))) for i in free
-            ]
-            if not overlaps or max(overlaps) < MATCH_OVERLAP:
-                self.wrong += 1
-                continue
-            match = free.pop(int(np.argmax(overlaps)))
-            if demanded[match]:
-                self.found += 1
-                self.right += 1
-                self.errors.append(
-                    FULL_PER_INPUT * 0.5 * (box[:2] + box[2:] - truth[match][:2] - truth[match][2:])
-                )
-
-    @staticmethod
-    def _is_demanded(box: np.ndarray) -> bool:
-        return bool((box[2:] - box[:2]).min() * FULL_PER_INPUT >= SMALLEST_PX)
-
-    def quality(self) -> Quality:
-        errors = np.array(self.errors).reshape(-1, 2)
-        bias = errors.mean(0) if len(errors) else np.zeros(2)
-        return Quality(
-            self.found / max(self.demanded, 1),
-            self.right / max(self.right + self.wrong, 1),
-            float(np.sqrt((errors**2).mean())) if len(errors) else float("nan"),
-            (float(bias[0]), float(bias[1])),
-        )
-
-
-def predict(model: TargetDetector, example: Example) -> np.ndarray:
-    """Output [5, N] in YOLO's layout."""
-    height, width = example.image.shape[:2]
-    image = torch.tensor(example.image.transpose(2, 0, 1)[None].copy()).float() / 255.0
-    with torch.no_grad():
-        boxes, scores = model(image)
-        return torch.cat((decode(boxes, *cells(height, width)), scores.sigmoid()), 1)[0].numpy()
-
-
-def evaluate(model: TargetDetector, examples: list[Example], thresholds: tuple[float, ...]) -> list[Quality]:
-    """At each confidence threshold."""
-    model.eval()
-    counters = [Counter() for _ in thresholds]
-    for example in examples:
-        output = predict(model, example)
-        for counter, threshold in zip(counters, thresholds):
-            counter.add(detect(output, threshold), example.boxes)
-    return [counter.quality() for counter in counters]
+if __name__ == "__main__":
+    main()

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the detector as ONNX in YOLO11's output layout, with nothing in it that OpenCV 4.6 cannot run."""
 
-import argparse
 from pathlib import Path
 
 import onnx
@@ -44,7 +43,14 @@ def inline_identities(graph: onnx.GraphProto) -> None:
             node.input[index] = original.get(name, name)
 
 
-def export(detector: TargetDetector, file: Path) -> None:
+def add_metadata(model: onnx.ModelProto, entries: dict[str, str]) -> None:
+    for key, value in entries.items():
+        entry = model.metadata_props.add()
+        entry.key, entry.value = key, value
+
+
+def export(detector: TargetDetector, file: Path, centre_sigma_px: tuple[float, float] | None) -> None:
+    """centre_sigma_px: a, b of sigma = hypot(a, b * root of the box's area), an axis, in input pixels."""
     exported = Exported(detector).eval()
     images = torch.zeros(1, 3, INPUT_HEIGHT, INPUT_WIDTH)
     part = file.with_suffix(".partial")
@@ -59,22 +65,10 @@ def export(detector: TargetDetector, file: Path) -> None:
     )
     model = onnx.load(str(part))
     inline_identities(model.graph)
-    entry = model.metadata_props.add()
-    entry.key, entry.value = "names", str(CLASS_NAMES)
+    add_metadata(model, {"names": str(CLASS_NAMES)})
+    if centre_sigma_px:
+        sigma = ",".join(f"{value:.4f}" for value in centre_sigma_px)
+        add_metadata(model, {"geoloc_centre_sigma_px": sigma})
     onnx.checker.check_model(model)
     onnx.save(model, str(part))
     part.replace(file)
-
-
-def main() -> None:
-    arguments = argparse.ArgumentParser(description=__doc__)
-    arguments.add_argument("checkpoint", type=Path)
-    arguments.add_argument("onnx", type=Path)
-    options = arguments.parse_args()
-    detector = TargetDetector()
-    detector.load_state_dict(torch.load(options.checkpoint, weights_only=False)["average"])
-    export(detector.eval(), options.onnx)
-
-
-if __name__ == "__main__":
-    main()

@@ -4,25 +4,33 @@
 import torch
 from torch.nn import functional
 
-LARGE_PX = 36.0  # input pixels: targets from here on belong to the stride-16 grid,
+LARGE_PX = 32.0  # targets from here on belong to the stride-16 grid,
 OVERLAP = 1.3  # those within this factor of it to both
-SCORE_WEIGHT = 4.0  # telling targets from look-alikes is harder than boxing them
 REACH = 0.8  # predictors whose centre is this near the target's (in strides, either axis) answer for it
+SCORE_WEIGHT = 6.0  # telling targets from look-alikes is harder than boxing them
+CENTRE_WEIGHT = 2.0  # geo-location uses the centre alone, so it is paid for once more, beside the overlap
+SIZE_WEIGHT = 0.5
+FOCUS = 1.5  # exponent: cells that are right already cost nearly nothing, which leaves the look-alikes
 
 
 def assign(
-    boxes: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor
+    targets: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor
 ) -> tuple[torch.Tensor, torch.Tensor]:
-    """boxes [K, 4] (left, top, right, bottom); returns the responsible cells and the box of each of them."""
-    middle = 0.5 * (boxes[:, :2] + boxes[:, 2:])
-    size = (boxes[:, 2:] - boxes[:, :2]).amax(1)
-    distance = (centres.T[None] - middle[:, None]).abs().amax(2) / strides  # [K, N]
-    fine = strides < 12.0
-    fits = torch.where(fine[None], size[:, None] < LARGE_PX * OVERLAP, size[:, None] > LARGE_PX / OVERLAP)
+    """targets [K, 4] (centre, size); returns the responsible cells and the target of each of them."""
+    distance = (centres.T[None] - targets[:, None, :2]).abs().amax(2) / strides  # [K, N]
+    size = targets[:, 2:].amax(1)[:, None]
+    fine = strides[None] < 12.0
+    fits = torch.where(fine, size < LARGE_PX * OVERLAP, size > LARGE_PX / OVERLAP)
     distance = torch.where(fits & (distance < REACH), distance, torch.inf)
     nearest, owner = distance.min(0)
     responsible = torch.nonzero(torch.isfinite(nearest)).flatten()
     return responsible, owner[responsible]
+
+
+def covered(targets: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor) -> torch.Tensor:
+    """Which cells [N] lie on any of the targets [K, 4]."""
+    off = (centres.T[None] - targets[:, None, :2]).abs()  # [K, N, 2]
+    return (off < 0.5 * targets[:, None, 2:] + 0.5 * strides[None, :, None]).all(2).any(0)
 
 
 def intersection_over_union(a: torch.Tensor, b: torch.Tensor) -> torch.Tensor:
@@ -40,32 +48,39 @@ def corners(centre_size: torch.Tensor) -> torch.Tensor:
     return torch.cat((centre_size[..., :2] - half, centre_size[..., :2] + half), -1)
 
 
+def box_loss(predicted: torch.Tensor, truth: torch.Tensor, overlap: torch.Tensor) -> torch.Tensor:
+    """Sum over boxes [M, 4] (centre, size) with these overlaps [M]."""
+    # By the root of the size, between pixels, which small targets hardly feel, and sizes, which large ones would not.
+    off_centre = (predicted[:, :2] - truth[:, :2]).abs() / truth[:, 2:].sqrt()
+    off_size = (predicted[:, 2:].log() - truth[:, 2:].log()).abs()
+    each = 1.0 - overlap + CENTRE_WEIGHT * off_centre.mean(1) + SIZE_WEIGHT * off_size.mean(1)
+    return each.sum()
+
+
 def detection_loss(
     decoded: torch.Tensor,  # [B, 4, N] centre and size [px]
     scores: torch.Tensor,  # [B, 1, N] logits
     targets: list[torch.Tensor],  # B times [K, 4]
+    is_taught: list[torch.Tensor],  # B times [K]
     centres: torch.Tensor,
     strides: torch.Tensor,
 ) -> torch.Tensor:
-    wanted = torch.zeros_like(scores)
-    box_loss = decoded.new_zeros(())
+    wanted, counts = torch.zeros_like(scores), torch.ones_like(scores)
+    boxes_cost = decoded.new_zeros(())
     answers = 0
-    for index, boxes in enumerate(targets):
-        if len(boxes) == 0:
+    for index, (all_targets, taught) in enumerate(zip(targets, is_taught)):
+        if not taught.all():
+            counts[index, 0, covered(all_targets[~taught], centres, strides)] = 0.0
+        if not taught.any():
             continue
-        responsible, owner = assign(boxes, centres, strides)
-        if len(responsible) == 0:
-            continue
-        predicted, truth = decoded[index, :, responsible].T, boxes[owner]
-        overlap = intersection_over_union(corners(predicted), truth)
+        responsible, owner = assign(all_targets[taught], centres, strides)
+        predicted, truth = decoded[index, :, responsible].T, all_targets[taught][owner]
+        overlap = intersection_over_union(corners(predicted), corners(truth))
         wanted[index, 0, responsible] = overlap.detach().sqrt()  # a good box scores near 1
-        true_centre, true_size = 0.5 * (truth[:, :2] + truth[:, 2:]), truth[:, 2:] - truth[:, :2]
-        # Geo-location uses the centre alone, so the centre is paid for once more, beside the overlap.
-        off_centre = (predicted[:, :2] - true_centre).abs() / true_size
-        off_size = (torch.log(predicted[:, 2:]) - torch.log(true_size)).abs()
-        box_loss = (
-            box_loss + (1.0 - overlap).sum() + 4.0 * off_centre.mean(1).sum() + 0.5 * off_size.mean(1).sum()
-        )
+        counts[index, 0, responsible] = 1.0
+        boxes_cost = boxes_cost + box_loss(predicted, truth, overlap)
         answers += len(responsible)
-    score_loss = functional.binary_cross_entropy_with_logits(scores, wanted, reduction="sum")
-    return (SCORE_WEIGHT * score_loss + box_loss) / max(answers, 1)
+    surprise = (scores.detach().sigmoid() - wanted).abs() ** FOCUS
+    score_cost = functional.binary_cross_entropy_with_logits(scores, wanted, reduction="none")
+    score_loss = (counts * surprise * score_cost).sum()
+    return (SCORE_WEIGHT * score_loss + boxes_cost) / max(answers, 1)

@@ -38,9 +38,9 @@ class CameraRenderer {
   /// Throws std::invalid_argument naming every problem of intrinsics and settings.
   CameraRenderer(const CameraIntrinsics& intrinsics, const Scene& scene, const RenderSettings& settings = {});
 
-  /// The same with a ground that several cameras share.
-  CameraRenderer(const CameraIntrinsics& intrinsics, std::vector<PlacedObject> objects,
-                 std::shared_ptr<const Ground> ground, const RenderSettings& settings);
+  /// The same with a ground that several cameras share, whatever ground the scene names.
+  CameraRenderer(const CameraIntrinsics& intrinsics, const Scene& scene, std::shared_ptr<const Ground> ground,
+                 const RenderSettings& settings);
 
   ~CameraRenderer();
   CameraRenderer(CameraRenderer&&) noexcept;
@@ -57,6 +57,7 @@ class CameraRenderer {
   struct Buffers;
 
   std::vector<PlacedObject> objects_;
+  std::vector<Shadow> shadows_;
   std::shared_ptr<const Ground> ground_;
   RenderSettings settings_;
   std::unique_ptr<Buffers> buffers_;

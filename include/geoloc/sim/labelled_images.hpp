@@ -24,19 +24,27 @@ struct Shot {
   int jpeg_quality;
 };
 
-/// Picture number `index` of a set: 8-60 m above any ground, tilted up to 40 deg, in any light, with up to
-/// eight targets (none in one of ten) and distractors. Depends on nothing but its arguments.
-Shot random_shot(std::uint64_t seed, int index);
+/// Which grounds and which light: the held-back set shares neither with the training set.
+enum class ImageSet { kTraining, kHeldBack };
+inline constexpr int kGroundsAStyle = 2;  ///< how many seeds of each style are used
 
-/// The targets worth learning from: those of which at least kLabelledFraction is inside the image.
+/// Picture number `index` of a set: targets 8-200 px wide, seen up to 60 deg from the vertical in varied
+/// light, up to eight of them (none in one of ten) among distractors and shadows, some partly covered.
+/// Depends on nothing but its arguments.
+Shot random_shot(std::uint64_t seed, int index, ImageSet set = ImageSet::kTraining);
+
+/// The targets worth learning from: those of which at least kLabelledFraction is inside the image and
+/// uncovered.
 std::vector<VisibleBox> labels_of(const Shot& shot);
 inline constexpr double kLabelledFraction = 0.4;
 
-/// Writes folder/images/00000.jpg ... and folder/labels/00000.txt ... (YOLO: class, centre and size relative
-/// to the image, a line a target). The folder must not exist; it appears whole or not at all. progress(done)
-/// is called after each picture and ends the work by returning false. Returns false where it was ended so;
-/// throws std::runtime_error where it cannot write.
-bool write_labelled_images(int count, std::uint64_t seed, const std::filesystem::path& folder,
+/// Writes folder/images/00000.jpg ..., folder/labels/00000.txt ... (YOLO: class, centre and size relative to
+/// the image, a line a target; the centre is the image of the target's centre, the size that of the box
+/// around its whole outline) and folder/objects.csv (all objects in view: kind, centre, size of the
+/// box, share that is seen, angle of the line of sight to the vertical). The folder must not exist; it
+/// appears whole or not at all. progress(done) is called after each picture and ends the work by returning
+/// false. Returns false where it was ended so; throws std::runtime_error where it cannot write.
+bool write_labelled_images(int count, std::uint64_t seed, ImageSet set, const std::filesystem::path& folder,
                            const std::function<bool(int)>& progress);
 
 }  // namespace geoloc::sim

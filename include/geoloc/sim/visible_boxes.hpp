@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
@@ -21,6 +22,10 @@ struct VisibleBox {
   Eigen::Vector2d
       centre_px;  ///< projection of the target's centre, which whole.centre() misses by some 0.01 of its size
 };
+
+/// Box of objects[index], of whatever kind; nullopt where the camera sees nothing of it.
+std::optional<VisibleBox> visible_box(const CameraModel& camera, const Rigid3d& enu_from_camera,
+                                      const std::vector<PlacedObject>& objects, std::size_t index);
 
 /// Boxes of all fiducial targets that the camera sees in part at least.
 std::vector<VisibleBox> visible_boxes(const CameraModel& camera, const Rigid3d& enu_from_camera,

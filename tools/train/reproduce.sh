@@ -1,0 +1,25 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# tools/train/reproduce.sh [OUT]: pictures, training and the figures of docs/model.md, from a checkout that is built
+# (build/release/bin/geoloc_sim exists). OUT (out/model) takes 16 GB. What exists there is kept: an interrupted run goes on.
+set -euo pipefail
+ROOT=$(cd "$(dirname "$0")/../.." && pwd)
+cd "$ROOT"
+OUT=${1:-out/model}
+mkdir -p "$OUT"
+[ -d "$OUT/venv" ] || { python3 -m venv "$OUT/venv" && "$OUT/venv/bin/pip" install -q -r tools/train/requirements.txt; }
+
+pictures() { # name count seed grounds
+  [ -d "$OUT/$1" ] || build/release/bin/geoloc_sim --images "$2" --seed "$3" --grounds "$4" --out "$OUT/$1"
+}
+pictures train_1 1300 1 train
+pictures train_2 1300 2 train
+pictures validation 160 501 train
+pictures held_back 300 9001 held-back
+
+export OMP_WAIT_POLICY=passive  # threads that spin while they wait take a busy machine's time from each other
+BFLOAT16=$(grep -qm1 avx512_bf16 /proc/cpuinfo && echo --bfloat16 || true)
+"$OUT/venv/bin/python" tools/train/train.py --train "$OUT/train_1" "$OUT/train_2" --validation "$OUT/validation" \
+  --out "$OUT/fiducial.onnx" $BFLOAT16
+"$OUT/venv/bin/python" tools/train/evaluate.py "$OUT/fiducial.onnx" --validation "$OUT/validation" \
+  --held-back "$OUT/held_back" --figures "$OUT/figures"
