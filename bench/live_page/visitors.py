@@ -39,10 +39,15 @@ def fetch_pictures(url, received, is_over):
         time.sleep(0.2)
 
 
+def spent_s():
+    """Processor time of the programs that have ended."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
 def fly(pages):
-    """[latency ms each second], processor seconds of all programs but this, bytes sent."""
+    """[latency ms each second], processor seconds of geoloc_app, bytes sent."""
     world, received, is_over = World(), [], threading.Event()
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with world.watch("--http", "0") as app:
         url = app.wait_for(r"^page: (\S+)")[1]
         host, port = url.split("/")[2].split(":")
@@ -53,21 +58,20 @@ def fly(pages):
         with world.fly(*FLIGHT) as sim:
             sim.wait()
         is_over.set()
+        before_s = spent_s()
         app.interrupt()
-        found = [re.search(r"latency (\d+) ms.*objects [1-9]", line) for line in app.lines]
+        found = [re.search(r"objects [1-9].*latency (\d+) ms", line) for line in app.lines]
     for thread in threads:
         thread.join()
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    spent_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return [int(match[1]) for match in found if match], spent_s, sum(received)
+    return [int(match[1]) for match in found if match], spent_s() - before_s, sum(received)
 
 
 def main(numbers):
-    print("pages  latency ms: median  middle half   processor s    MB sent")
+    print("pages  latency ms: median  middle half  geoloc_app's processor s  MB sent")
     for pages in numbers:
-        latencies, spent_s, sent = fly(pages)
+        latencies, app_s, sent = fly(pages)
         quarters = statistics.quantiles(latencies, n=4)
-        print(f"{pages:5d}  {quarters[1]:18.0f}  {quarters[0]:4.0f} … {quarters[2]:4.0f}  {spent_s:12.1f}  {sent / 1e6:9.1f}", flush=True)
+        print(f"{pages:5d}  {quarters[1]:18.0f}  {quarters[0]:4.0f} … {quarters[2]:4.0f}  {app_s:24.1f}  {sent / 1e6:7.1f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The live page: in a browser over a live run, and before visitors of all kinds."""
+import http.server
 import json
+import math
 import re
 import shutil
 import socket
@@ -46,8 +48,60 @@ FIND_COLOUR = """([selector, colour]) => {
 }"""
 
 
+# A canvas on which a picture of another server was drawn cannot be read.
+IS_TAINTED = """() => {
+  try {
+    document.querySelector("#map-canvas").getContext("2d").getImageData(0, 0, 1, 1);
+    return false;
+  } catch {
+    return true;
+  }
+}"""
+
+
+def tile_of(feature, zoom):
+    """The Web Mercator tile that holds a GeoJSON point."""
+    longitude, latitude = map(math.radians, feature["geometry"]["coordinates"])
+    turns = (longitude / math.tau + 0.5, 0.5 - math.asinh(math.tan(latitude)) / math.tau)
+    return (zoom, *(int(2**zoom * turn) for turn in turns))
+
+
 def url_of(program):
     return program.wait_for(r"^page: (http://127\.0\.0\.1:\d+/)")[1]
+
+
+TILE = b'<svg xmlns="http://www.w3.org/2000/svg" width="256" height="256"><path d="M0 0h256v256H0z" fill="#d0e8c0"/></svg>'
+
+
+class TileServer:
+    """A map of one colour; `asked` holds the (zoom, x, y) that it was asked for."""
+
+    def __init__(self):
+        self.asked = asked = set()
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                asked.add(tuple(map(int, re.findall(r"\d+", self.path))))
+                self.send_response(200)
+                self.send_header("Content-Type", "image/svg+xml")
+                self.end_headers()
+                self.wfile.write(TILE)
+
+            def log_message(self, *_):
+                pass
+
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self._thread = threading.Thread(target=self._server.serve_forever)
+        self.url = f"http://127.0.0.1:{self._server.server_port}/{{z}}/{{x}}/{{y}}.svg"
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._server.shutdown()
+        self._thread.join()
+        self._server.server_close()
 
 
 @unittest.skipUnless(sync_playwright, "no Playwright: scripts/test.sh installs it")
@@ -96,6 +150,21 @@ class LivePage(AppTest):
             self.assertEqual(app.interrupt(), 0)  # with all pages open
             pages["phone_dark"].wait_for_selector("#notice:has-text('does not answer')")
 
+    def test_draws_the_tiles_of_a_server_where_one_is_configured(self):
+        with TileServer() as tiles:
+            config = self.write("config.json", {"live_page": {"tile_url": tiles.url, "tile_attribution": "<b>Maps</b>"}})
+            with Live("geoloc_replay", self.make_recording(), "--config", config, "--http", "0", "--speed", "0",
+                      "--out", self.objects_file) as replay:
+                url = url_of(replay)
+                replay.wait_for("the page stays at")
+                page = self.open_screen("desktop_light", url)
+                page.wait_for_function(IS_TAINTED)
+                self.assertEqual(page.locator("#attribution").inner_text(), "<b>Maps</b>")
+                self.assertEqual(replay.interrupt(), 0)
+        self.assertEqual([fault for fault in self.faults if "CONNECTION" not in fault], [])
+        for feature in json.loads(self.objects_file.read_text())["features"]:
+            self.assertTrue(any(tile_of(feature, zoom) == (zoom, x, y) for zoom, x, y in tiles.asked), feature)
+
     def finds_colour(self, page, selector, colour):
         """Waits for it: what is drawn follows the run."""
         page.wait_for_function(f"(what) => ({FIND_COLOUR})(what) !== null", arg=[selector, colour])
@@ -112,15 +181,20 @@ class LivePage(AppTest):
     def check_screen(self, name, page, url):
         """A click on an object shows its place; nothing sticks out; a picture is kept."""
         page.bring_to_front()
-        place = self.finds_colour(page, "#map-canvas", "--object")
-        page.mouse.click(*place)
+        page.locator("#fit").click()  # the map stands still from here on
+        page.wait_for_selector("#fit[aria-pressed=false]")
+        page.mouse.click(*self.finds_colour(page, "#map-canvas", "--object"))
         page.wait_for_selector("#selected:not([hidden]) .place")
         shown = page.locator("#selected .place dd").all_inner_texts()
         chosen = int(re.match(r"\d+", page.locator("#selected h2").inner_text())[0])
         with urllib.request.urlopen(f"{url}objects/{chosen}", timeout=PATIENCE_S) as answer:
             coordinates = json.load(answer)["coordinates"]
         self.assertEqual([text[:12] for text in shown], [text[:12] for text in coordinates.values()])
+        pointed = re.findall(r"-?\d+\.\d+", page.locator("#readout").inner_text())[:2]  # where the click was
+        for read, told in zip(pointed, coordinates["degrees"].split(", ")):
+            self.assertAlmostEqual(float(read), float(told), delta=2e-5)  # 2 m; a pixel is some decimetres
         self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth - innerWidth"), 0)
+        page.locator("#fit").click()
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=name.startswith("phone"))
 

@@ -35,8 +35,15 @@ bool is_same(const ObjectReport& a, const ObjectReport& b) {
 
 }  // namespace
 
-LiveDocument::LiveDocument(const LivePageTitle& title) : title_json_(page_json::title(title)) {
+LiveDocument::LiveDocument(const LivePageTitle& title) {
   publish();
+  set("run", page_json::title(title));
+}
+
+void LiveDocument::set(const std::string& name, std::string json) {
+  Part& part = parts_[name];
+  if (part.json == json) return;
+  part = {std::move(json), revision_};
 }
 
 void LiveDocument::publish() {
@@ -48,36 +55,36 @@ void LiveDocument::add(const OutputFrame& frame) {
   const std::lock_guard lock(mutex_);
   publish();
   add_objects(frame);
-  estimator_json_ = page_json::estimator(frame.estimator);
+  set("estimator", page_json::estimator(frame.estimator));
   if (!frame.view || !frame.view->vehicle_in_enu.allFinite()) return;
-  view_json_ = page_json::view(frame);
-  if (anchor_json_ == "null") anchor_json_ = page_json::anchor(*frame.view);
+  set("view", page_json::view(frame));
+  if (parts_.count("anchor") == 0) set("anchor", page_json::anchor(*frame.view));
   add_path(frame.view->vehicle_in_enu.head<2>());
   add_fixes(frame);
 }
 
 void LiveDocument::add(const LiveStatus& status) {
   const std::lock_guard lock(mutex_);
-  status_json_ = page_json::status(status);
   publish();
+  set("status", page_json::status(status));
 }
 
 void LiveDocument::add(const RunRecord& run) {
   const std::lock_guard lock(mutex_);
-  targets_json_ = page_json::targets(run.targets);
   publish();
+  set("targets", page_json::targets(run.targets));
 }
 
 void LiveDocument::announce_picture(std::uint64_t number) {
   const std::lock_guard lock(mutex_);
-  picture_ = number;
   publish();
+  set("picture", std::to_string(number));
 }
 
 void LiveDocument::end() {
   const std::lock_guard lock(mutex_);
-  has_ended_ = true;
   publish();
+  set("ended", "true");
 }
 
 void LiveDocument::add_objects(const OutputFrame& frame) {
@@ -185,17 +192,11 @@ std::string LiveDocument::fixes_since(std::uint64_t first) const {
 
 std::string LiveDocument::changes(Cursor& cursor) const {
   const std::lock_guard lock(mutex_);
-  const bool is_new = cursor.revision == 0;
   std::string json;
   page_json::append(json, "revision", std::to_string(revision_));
-  if (is_new) page_json::append(json, "run", title_json_);
-  if (is_new || cursor.path == 0) page_json::append(json, "anchor", anchor_json_);
-  page_json::append(json, "ended", has_ended_ ? "true" : "false");
-  page_json::append(json, "status", status_json_);
-  page_json::append(json, "view", view_json_);
-  page_json::append(json, "estimator", estimator_json_);
-  page_json::append(json, "targets", targets_json_);
-  page_json::append(json, "picture", std::to_string(picture_));
+  for (const auto& [name, part] : parts_) {
+    if (part.revision > cursor.revision) page_json::append(json, name, part.json);
+  }
   page_json::append(json, "objects", objects_since(cursor.revision));
   if (removed_revision_ > cursor.revision) {
     std::string ids = "[";

@@ -53,7 +53,7 @@ std::int64_t milliseconds(HostTime time) {
   return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
 }
 
-void append(std::string& object, const char* name, const std::string& json) {
+void append(std::string& object, const std::string& name, const std::string& json) {
   object += object.empty() ? "{\"" : ",\"";
   object += name;
   object += "\":";

@@ -30,7 +30,7 @@ std::string settings(const LivePageConfig& config);
 std::string anchor(const ViewReport& view);
 
 /// One more `"name":value` of an object that is written piece by piece.
-void append(std::string& object, const char* name, const std::string& json);
+void append(std::string& object, const std::string& name, const std::string& json);
 
 /// `object` without its closing brace, and what a click on it shows besides.
 std::string details(const ObjectReport& report, const std::string& object_json,

@@ -70,6 +70,11 @@ class LiveDocument {
     int hits;
     double sigma_major_m;
   };
+  /// Something that is sent whole, and only where it has changed.
+  struct Part {
+    std::string json;
+    std::uint64_t revision = 0;  // of the last change
+  };
   struct Entry {
     ObjectReport report;
     bool is_confirmed = false;
@@ -91,24 +96,18 @@ class LiveDocument {
   void add_path(const Eigen::Vector2d& position_in_enu);
   void add_fixes(const OutputFrame& frame);
   void publish();
+  void set(const std::string& name, std::string json);
   std::string objects_since(std::uint64_t revision) const;
   std::string path_since(const Cursor& cursor) const;
   std::string fixes_since(std::uint64_t first) const;
 
-  const std::string title_json_;
   mutable std::mutex mutex_;  // guards what follows
   mutable std::condition_variable changed_;
   mutable std::condition_variable closing_;
   bool is_closed_ = false;
-  bool has_ended_ = false;
   std::uint64_t revision_ = 0;
   std::uint64_t removed_revision_ = 0;  // of the last removal
-  std::uint64_t picture_ = 0;
-  std::string status_json_ = "null";
-  std::string view_json_ = "null";
-  std::string estimator_json_ = "null";
-  std::string anchor_json_ = "null";
-  std::string targets_json_ = "[]";
+  std::map<std::string, Part> parts_;   // by their names in the JSON
   Objects objects_;
   std::vector<Eigen::Vector2d> path_;
   std::uint64_t path_epoch_ = 1;
