@@ -9,6 +9,7 @@
 
 #include "eval/axis_scale.hpp"
 #include "geoloc/io/output/markup.hpp"
+#include "geoloc/io/output/palette.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -23,6 +24,19 @@ constexpr double kBottom = kTop + kPlotHeight;
 constexpr double kRowHeight = 17.0;
 constexpr double kRowsTop = kBottom + 56.0;
 constexpr int kStyles = 4;
+
+constexpr const char* kShapes =
+    R"(.gc{font-family:system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
+.gc-title{font-size:14.5px;font-weight:600}.gc-label{font-size:12.5px}.gc-tick,.gc-cell{font-size:11.5px}
+.gc-grid,.gc-axis,.gc-guide{fill:none}.gc-guide{stroke-dasharray:3 4}.gc-line{fill:none;stroke-width:2.2}.gc-bar{stroke-opacity:.45}
+.gc-m{stroke-width:0;fill-opacity:.85}polyline.gc-line{fill:none}polyline.gc-0{stroke-dasharray:7 4}
+)";
+constexpr const char* kColours =
+    R"(.gc-back{fill:var(--card)}.gc-title,.gc-cell{fill:var(--ink)}.gc-label,.gc-tick{fill:var(--soft)}
+.gc-grid{stroke:var(--grid)}.gc-axis,.gc-guide{stroke:var(--trajectory)}
+.gc-0{fill:var(--tentative);stroke:var(--tentative)}.gc-1{fill:var(--object);stroke:var(--object)}
+.gc-2{fill:var(--footprint);stroke:var(--footprint)}.gc-3{fill:var(--target);stroke:var(--target)}
+)";
 
 struct Plane {
   AxisScale x;
@@ -179,17 +193,8 @@ std::string draw(const Chart& chart, const std::string& attributes, const std::s
 }  // namespace
 
 std::string chart_css() {
-  return R"(.gc{font-family:system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
-.gc-back{fill:#fff}.gc-title{font-size:14.5px;font-weight:600;fill:#172033}
-.gc-label{font-size:12.5px;fill:#3b475c}.gc-tick{font-size:11.5px;fill:#5b677c}.gc-cell{font-size:11.5px;fill:#172033}
-.gc-grid{stroke:#e6eaf1;fill:none}.gc-axis{stroke:#8a95a8;fill:none}
-.gc-guide{stroke:#8a95a8;stroke-dasharray:3 4;fill:none}.gc-line{fill:none;stroke-width:2.2}.gc-bar{stroke-opacity:.45}
-.gc-0{fill:#c2540a;stroke:#c2540a}.gc-1{fill:#1763c6;stroke:#1763c6}.gc-2{fill:#1b7f4b;stroke:#1b7f4b}.gc-3{fill:#8b3fb0;stroke:#8b3fb0}
-.gc-m{stroke-width:0;fill-opacity:.85}polyline.gc-line{fill:none}polyline.gc-0{stroke-dasharray:7 4}
-@media (prefers-color-scheme:dark){.gc-back{fill:#121821}.gc-title,.gc-cell{fill:#edf1f7}.gc-label{fill:#c3ccda}
-.gc-tick{fill:#a3aec0}.gc-grid{stroke:#263040}.gc-axis,.gc-guide{stroke:#75829a}
-.gc-0{fill:#f59a55;stroke:#f59a55}.gc-1{fill:#6db3ff;stroke:#6db3ff}.gc-2{fill:#5fd39a;stroke:#5fd39a}.gc-3{fill:#d49af0;stroke:#d49af0}}
-)";
+  return kShapes + io::with_colours(kColours, io::ColourScheme::kLight) +
+         "@media (prefers-color-scheme:dark){" + io::with_colours(kColours, io::ColourScheme::kDark) + "}\n";
 }
 
 std::string to_svg_element(const Chart& chart) {

@@ -13,6 +13,7 @@
 #include "eval/run_charts.hpp"
 #include "eval/sweep_report.hpp"
 #include "geoloc/io/output/markup.hpp"
+#include "geoloc/io/output/palette.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -34,9 +35,7 @@ constexpr std::array<std::array<PublishedRun, 3>, kPaths> kPublished{{
 constexpr double kPublishedRmse_m = 0.603;
 
 constexpr const char* kPageStyle =
-    R"(:root{color-scheme:light dark;--ink:#172033;--soft:#55617a;--line:#dfe4ec;--card:#f6f8fb;--page:#fff;--best:#1763c6}
-@media (prefers-color-scheme:dark){:root{--ink:#edf1f7;--soft:#a3aec0;--line:#2a3546;--card:#171f2b;--page:#0f141c;--best:#6db3ff}}
-*{box-sizing:border-box}body{margin:0;background:var(--page);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
+    R"(*{box-sizing:border-box}body{margin:0;background:var(--page);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
 main{max-width:1080px;margin:0 auto;padding:28px 16px 64px}h1{font-size:1.75rem;line-height:1.2;margin:0 0 6px}
 h2{font-size:1.2rem;margin:44px 0 4px}p{margin:6px 0 14px;max-width:70ch}.lead{color:var(--soft)}
 .tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin:22px 0 8px}
@@ -215,7 +214,8 @@ std::string to_html(const EvalResults& results) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>geoloc: "
       "evaluation</title>\n"
       "<style>\n";
-  html += kPageStyle + chart_css() + "</style></head>\n<body><main>\n<h1>How well geoloc locates</h1>\n";
+  html += std::string(io::palette_css()) + kPageStyle + chart_css() +
+          "</style></head>\n<body><main>\n<h1>How well geoloc locates</h1>\n";
   html +=
       "<p class=\"lead\">Recorded ArduPilot flights, simulated camera. <b>paper</b> is the published method, "
       "<b>full</b> "

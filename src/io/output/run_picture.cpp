@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "geoloc/io/output/markup.hpp"
+#include "geoloc/io/output/palette.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -18,15 +19,23 @@ constexpr double kHeader_px = 70.0;
 constexpr double kFooter_px = 56.0;
 constexpr double kMargin_px = 46.0;
 
-constexpr const char* kStyle = R"(<style>
- text{font-family:Inter,"Helvetica Neue",Arial,sans-serif;fill:#334155}
- .title{font-size:22px;font-weight:600;fill:#0f172a}.subtitle{font-size:14px}.axis{font-size:11px;fill:#64748b}
- .legend{font-size:13px}.grid{stroke:#e2e8f0;stroke-width:1}.frame{fill:#ffffff;stroke:#cbd5e1}
- .trajectory{fill:none;stroke:#94a3b8;stroke-width:1.2}.raw{fill:#38bdf8;fill-opacity:.28}
- .target{fill:none;stroke:#dc2626;stroke-width:1.6}.object{fill:#16a34a;stroke:#ffffff;stroke-width:.8}
- .ellipse{fill:#16a34a;fill-opacity:.10;stroke:#16a34a;stroke-opacity:.55}.id{font-size:10px;fill:#14532d}
-</style>
+constexpr const char* kShapes = R"(
+ text{font-family:system-ui,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
+ .title{font-size:22px;font-weight:600}.subtitle{font-size:14px}.axis{font-size:11px}.legend{font-size:13px}
+ .id{font-size:10px;font-weight:600}.trajectory{fill:none;stroke-width:1.4}.raw{fill-opacity:.35}
+ .target{fill:none;stroke-width:1.4}.object{stroke-width:1}.ellipse{fill-opacity:.13;stroke-opacity:.75}
 )";
+constexpr const char* kColours = R"(
+ .page{fill:var(--page)}.frame{fill:var(--map);stroke:var(--line)}.grid{stroke:var(--grid)}
+ .title,.id{fill:var(--ink)}.subtitle,.axis,.legend{fill:var(--soft)}.trajectory{stroke:var(--trajectory)}
+ .raw{fill:var(--raw)}.target{stroke:var(--target)}.object{fill:var(--object);stroke:var(--map)}
+ .ellipse{fill:var(--object);stroke:var(--object)}
+)";
+
+std::string style() {
+  return std::string("<style>") + kShapes + with_colours(kColours, ColourScheme::kLight) +
+         "@media (prefers-color-scheme:dark){" + with_colours(kColours, ColourScheme::kDark) + "}</style>\n";
+}
 
 /// East, north to pixels of the picture: same scale both ways, north up.
 class Map {
@@ -184,8 +193,8 @@ std::string to_svg(const RunPicture& picture) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
       "height=\"{1:.0f}\">\n",
       kWidth_px, height_px);
-  svg += kStyle;
-  svg += "<rect width=\"100%\" height=\"100%\" fill=\"#f8fafc\"/>\n";
+  svg += style();
+  svg += "<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n";
   fmt::format_to(std::back_inserter(svg), "<text class=\"title\" x=\"{0:.0f}\" y=\"32\">{1}</text>\n",
                  kMargin_px, escape_markup(picture.title));
   fmt::format_to(std::back_inserter(svg), "<text class=\"subtitle\" x=\"{0:.0f}\" y=\"54\">{1}</text>\n",

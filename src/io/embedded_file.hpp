@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace geoloc::io {
+
+/// A text file of the source tree, in the program since it was built (geoloc_embed_files()).
+struct EmbeddedFile {
+  std::string_view name;
+  std::string_view content;
+};
+
+}  // namespace geoloc::io
