@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/io/output/live_status.hpp"
+#include "geoloc/io/output/output_frame.hpp"
+#include "geoloc/io/output/run_record.hpp"
+
+namespace geoloc::io {
+
+/// What the page says of a run before anything happened.
+struct LivePageTitle {
+  std::string name;     ///< of the run: the stream, or the recording
+  bool is_live = true;  ///< otherwise a recording is replayed
+};
+
+/// The state of a run as pages see it. Any thread may call any of it; nothing here grows without bound.
+///
+/// There are no queues: every part carries the revision at which it changed last, and a page is told what
+/// changed since the revision it has. One that is slow gets the newest state, later.
+class LiveDocument {
+ public:
+  /// How far a page is; a new one begins with the default and gets everything.
+  struct Cursor {
+    std::uint64_t revision = 0;
+    std::uint64_t path = 0;   ///< points of the trajectory
+    std::uint64_t fixes = 0;  ///< raw fixes
+    std::uint64_t path_epoch = 0;
+  };
+
+  explicit LiveDocument(const LivePageTitle& title);
+
+  void add(const OutputFrame& frame);
+  void add(const LiveStatus& status);
+  void add(const RunRecord& run);
+  /// A newer picture of the video can be fetched.
+  void announce_picture(std::uint64_t number);
+  /// The run is over; what is known stays to be looked at.
+  void end();
+
+  /// Waits until there is something newer than the cursor; false after `timeout`, and once closed.
+  bool wait(const Cursor& cursor, std::chrono::milliseconds timeout) const;
+
+  /// Waits until then; returns early once closed.
+  void pause_until(std::chrono::steady_clock::time_point time) const;
+
+  /// A JSON object of what a page at the cursor lacks; the cursor moves on.
+  std::string changes(Cursor& cursor) const;
+
+  /// JSON of one object: its coordinates in several notations, and its history. nullopt for an unknown id.
+  std::optional<std::string> object(std::uint64_t id) const;
+
+  /// Wakes everybody who waits, for good.
+  void close();
+  bool is_closed() const;
+
+ private:
+  /// How well an object was known at one time.
+  struct Moment {
+    HostTime at;
+    int hits;
+    double sigma_major_m;
+  };
+  /// Something that is sent whole, and only where it has changed.
+  struct Part {
+    std::string json;
+    std::uint64_t revision = 0;  // of the last change
+  };
+  struct Entry {
+    ObjectReport report;
+    bool is_confirmed = false;
+    std::string json;
+    std::uint64_t revision = 0;  // of the last change
+    std::uint64_t seen_in = 0;   // the update it was last part of
+    std::vector<Moment> history;
+  };
+  struct Fix {
+    Eigen::Vector2d position_in_enu;
+    double confidence;
+    HostTime at;
+  };
+  using Objects = std::map<std::uint64_t, Entry>;
+
+  void add_objects(const OutputFrame& frame);
+  void add_object(const ObjectReport& report, bool is_confirmed, HostTime at);
+  static void note_moment(Entry& entry, HostTime at);
+  void add_path(const Eigen::Vector2d& position_in_enu);
+  void add_fixes(const OutputFrame& frame);
+  void publish();
+  void set(const std::string& name, std::string json);
+  std::string objects_since(std::uint64_t revision) const;
+  std::string path_since(const Cursor& cursor) const;
+  std::string fixes_since(std::uint64_t first) const;
+
+  mutable std::mutex mutex_;  // guards what follows
+  mutable std::condition_variable changed_;
+  mutable std::condition_variable closing_;
+  bool is_closed_ = false;
+  std::uint64_t revision_ = 0;
+  std::uint64_t removed_revision_ = 0;  // of the last removal
+  std::map<std::string, Part> parts_;   // by their names in the JSON
+  Objects objects_;
+  std::vector<Eigen::Vector2d> path_;
+  std::uint64_t path_epoch_ = 1;
+  std::deque<Fix> fixes_;
+  std::uint64_t fixes_end_ = 0;  // number of the fix after the newest
+};
+
+}  // namespace geoloc::io

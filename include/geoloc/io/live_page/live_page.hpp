@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geoloc/io/live_page/live_document.hpp"
+#include "geoloc/io/live_page/live_page_config.hpp"
+#include "geoloc/io/live_page/live_site.hpp"
+#include "geoloc/io/live_page/picture_board.hpp"
+#include "geoloc/io/output/sink.hpp"
+
+namespace geoloc::io {
+
+class HttpServer;
+
+/// A page that shows a run in any browser, served over HTTP by threads of its own. What is added costs its
+/// caller the same whoever looks: pages wait for the run, the run never waits for a page.
+class LivePage {
+ public:
+  /// Listens at once. Throws std::runtime_error that names the endpoint, the reason and the remedy, and
+  /// std::invalid_argument naming every problem of the configuration.
+  LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
+           const std::vector<std::string>& class_names);
+  /// Ends every connection at once.
+  ~LivePage();
+  LivePage(const LivePage&) = delete;
+  LivePage& operator=(const LivePage&) = delete;
+
+  void add(const OutputFrame& frame) { document_.add(frame); }
+  void add(const LiveStatus& status) { document_.add(status); }
+  void add(const RunRecord& run) { document_.add(run); }
+  void end() { document_.end(); }
+
+  bool wants_picture() const { return board_.wants_picture(); }
+  void show(LivePicture picture) { document_.announce_picture(board_.show(std::move(picture))); }
+
+  /// Where a browser on this computer finds it: "http://127.0.0.1:8080/".
+  std::string url() const;
+
+ private:
+  HttpEndpoint endpoint_;
+  LiveDocument document_;
+  PictureBoard board_;
+  LiveSite site_;
+  std::unique_ptr<HttpServer> server_;  // last: it uses all of the above
+};
+
+/// Feeds a page that stays after the run's end, until nobody holds it any more.
+class LivePageSink final : public Sink {
+ public:
+  explicit LivePageSink(std::shared_ptr<LivePage> page) : page_(std::move(page)) {}
+
+  std::string name() const override { return "--http"; }
+  void on_frame(const OutputFrame& frame) override { page_->add(frame); }
+  void on_status(const LiveStatus& status) override { page_->add(status); }
+  void on_run(const RunRecord& run) override { page_->add(run); }
+  void on_end() override { page_->end(); }
+
+ private:
+  std::shared_ptr<LivePage> page_;
+};
+
+}  // namespace geoloc::io

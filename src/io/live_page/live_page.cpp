@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/live_page/live_page.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include "geoloc/geometry/problems.hpp"
+#include "http_server.hpp"
+
+namespace geoloc::io {
+namespace {
+
+constexpr std::chrono::milliseconds kHeartbeat{1000};
+constexpr std::size_t kShortConnections = 32;  // besides the pages' streams: files and pictures
+
+HttpLimits limits_of(const LivePageConfig& config) {
+  throw_if_any(config.problems());
+  HttpLimits limits;
+  limits.event_streams = static_cast<std::size_t>(config.max_pages);
+  limits.connections = limits.event_streams + kShortConnections;
+  limits.write_time = std::chrono::milliseconds{std::lround(1e3 * config.write_timeout_s)};
+  return limits;
+}
+
+/// One page's stream: the changes since the last event, as often as the period allows. While nothing changes
+/// a heartbeat tells that the run is there.
+class PageStream {
+ public:
+  PageStream(const LiveDocument& document, std::chrono::milliseconds period)
+      : document_(document), period_(period) {}
+
+  std::optional<std::string> next() {
+    document_.pause_until(told_at_ + period_);
+    const bool is_news = document_.wait(cursor_, kHeartbeat);
+    if (document_.is_closed()) return std::nullopt;
+    told_at_ = std::chrono::steady_clock::now();
+    return is_news ? "data: " + document_.changes(cursor_) + "\n\n" : "event: alive\ndata:\n\n";
+  }
+
+ private:
+  const LiveDocument& document_;
+  std::chrono::milliseconds period_;
+  LiveDocument::Cursor cursor_;
+  std::chrono::steady_clock::time_point told_at_{};
+};
+
+}  // namespace
+
+LivePage::LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
+                   const std::vector<std::string>& class_names)
+    : endpoint_(endpoint),
+      document_(title),
+      board_(class_names, std::chrono::milliseconds{std::lround(1e3 * config.picture_period_s)}),
+      site_(document_, board_, config, names_of_this_computer(endpoint.host)) {
+  const std::chrono::milliseconds period{std::lround(1e3 * config.update_period_s)};
+  server_ = std::make_unique<HttpServer>(
+      endpoint, limits_of(config), site_.headers(),
+      [this](const PageRequest& request) { return site_.answer(request); },
+      [this, period]() -> HttpServer::Events {
+        return [stream = std::make_shared<PageStream>(document_, period)] { return stream->next(); };
+      });
+  endpoint_.port = server_->port();
+}
+
+LivePage::~LivePage() {
+  document_.close();
+}
+
+std::string LivePage::url() const {
+  const bool is_everywhere = endpoint_.host == "0.0.0.0" || endpoint_.host == "::";
+  const bool is_v6 = endpoint_.host.find(':') != std::string::npos;
+  const std::string host =
+      is_everywhere ? "127.0.0.1" : (is_v6 ? "[" + endpoint_.host + "]" : endpoint_.host);
+  return "http://" + host + ":" + std::to_string(endpoint_.port) + "/";
+}
+
+}  // namespace geoloc::io

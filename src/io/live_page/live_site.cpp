@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/live_page/live_site.hpp"
+
+#include <arpa/inet.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <string_view>
+
+#include "geoloc/io/output/palette.hpp"
+#include "page_files.hpp"
+#include "page_json.hpp"
+
+namespace geoloc::io {
+namespace {
+
+constexpr std::string_view kObjects = "/objects/";
+constexpr std::size_t kLongestHost = 255;
+
+std::string lower_case(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+/// Without ":PORT", and an IPv6 address without its brackets.
+std::string host_of_header(const std::string& header) {
+  if (!header.empty() && header.front() == '[') {
+    const std::size_t end = header.find(']');
+    return end == std::string::npos ? "" : header.substr(1, end - 1);
+  }
+  return header.substr(0, header.find(':'));
+}
+
+bool is_address(const std::string& host) {
+  std::array<unsigned char, sizeof(in6_addr)> address{};
+  return inet_pton(AF_INET, host.c_str(), address.data()) == 1 ||
+         inet_pton(AF_INET6, host.c_str(), address.data()) == 1;
+}
+
+/// A browser says so where another site's page makes it ask. Following a link from there is no harm.
+bool is_on_behalf_of_another_site(const PageRequest& request) {
+  const std::string& site = request.fetch_site;
+  return !site.empty() && site != "same-origin" && site != "none" && request.fetch_mode != "navigate";
+}
+
+const char* type_of(std::string_view name) {
+  const std::string_view ending = name.substr(name.rfind('.') + 1);
+  if (ending == "html") return "text/html; charset=utf-8";
+  if (ending == "js") return "text/javascript; charset=utf-8";
+  if (ending == "css") return "text/css; charset=utf-8";
+  if (ending == "svg") return "image/svg+xml";
+  return "application/octet-stream";
+}
+
+PageAnswer refuse(int status, const char* reason) {
+  PageAnswer answer;
+  answer.status = status;
+  answer.body = std::string(reason) + "\n";
+  return answer;
+}
+
+PageAnswer json(std::string text) {
+  PageAnswer answer;
+  answer.type = "application/json";
+  answer.body = std::move(text);
+  return answer;
+}
+
+std::string content_security_policy(const LivePageConfig& config) {
+  const std::string tiles = tile_origin(config.tile_url);
+  return "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' blob:" +
+         (tiles.empty() ? "" : " " + tiles) + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+}
+
+}  // namespace
+
+bool is_own_host(const std::string& host_header, const std::vector<std::string>& own_names) {
+  if (host_header.empty() || host_header.size() > kLongestHost) return false;
+  const std::string host = lower_case(host_of_header(host_header));
+  return is_address(host) || std::find(own_names.begin(), own_names.end(), host) != own_names.end();
+}
+
+std::vector<std::string> names_of_this_computer(const std::string& given_host) {
+  std::vector<std::string> names{"localhost", lower_case(given_host)};
+  std::array<char, kLongestHost + 1> name{};
+  if (gethostname(name.data(), name.size() - 1) == 0 && name[0] != '\0') {
+    names.push_back(lower_case(name.data()));
+    names.push_back(names.back() + ".local");
+  }
+  return names;
+}
+
+std::optional<std::uint64_t> object_of_path(const std::string& path) {
+  if (path.size() <= kObjects.size() || path.compare(0, kObjects.size(), kObjects) != 0) return std::nullopt;
+  std::uint64_t id = 0;
+  const char* const end = path.data() + path.size();
+  const auto [stopped_at, error] = std::from_chars(path.data() + kObjects.size(), end, id);
+  if (error != std::errc{} || stopped_at != end) return std::nullopt;
+  return id;
+}
+
+LiveSite::LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
+                   std::vector<std::string> own_names)
+    : document_(document),
+      board_(board),
+      own_names_(std::move(own_names)),
+      settings_json_(page_json::settings(config)),
+      headers_{{"Content-Security-Policy", content_security_policy(config)},
+               {"X-Content-Type-Options", "nosniff"},
+               {"Referrer-Policy", "no-referrer"},
+               {"Cross-Origin-Resource-Policy", "same-origin"},
+               {"Cross-Origin-Opener-Policy", "same-origin"},
+               {"Cache-Control", "no-store"}} {}
+
+PageAnswer LiveSite::answer(const PageRequest& request) const {
+  if (!is_own_host(request.host, own_names_))
+    return refuse(421, "Ask by this computer's address: the name in the request is not its own.");
+  if (request.method != "GET" && request.method != "HEAD") return refuse(405, "Only GET and HEAD.");
+  if (is_on_behalf_of_another_site(request)) return refuse(403, "Not for pages of other sites.");
+  return dispatch(request);
+}
+
+PageAnswer LiveSite::dispatch(const PageRequest& request) const {
+  const std::string& path = request.path;
+  if (path == "/events") {
+    PageAnswer answer;
+    answer.is_event_stream = true;
+    return answer;
+  }
+  if (path == "/frame") {
+    board_.note_viewer();
+    const auto framed = board_.framed();
+    if (!framed) return PageAnswer{204, "", "", false};
+    return {200, "application/octet-stream", *framed, false};
+  }
+  if (path == "/settings") return json(settings_json_);
+  if (path.compare(0, kObjects.size(), kObjects) == 0) {
+    const auto id = object_of_path(path);
+    auto text = id ? document_.object(*id) : std::nullopt;
+    return text ? json(std::move(*text)) : refuse(404, "No such object.");
+  }
+  if (path == "/palette.css") return {200, type_of(path), std::string(palette_css()), false};
+  const std::string_view name =
+      path == "/" ? "index.html" : std::string_view(path).substr(path.empty() ? 0 : 1);
+  for (const EmbeddedFile& file : page_files()) {
+    if (file.name == name) return {200, type_of(file.name), std::string(file.content), false};
+  }
+  return refuse(404, "Not found.");
+}
+
+}  // namespace geoloc::io

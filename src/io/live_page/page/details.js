@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// The object that was clicked: its place in four notations, and how it came to be known.
+import { clock, element, number, sigmaText } from "./panels.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+const NOTATIONS = [["degrees", "Degrees"], ["dms", "DMS"], ["utm", "UTM"], ["mgrs", "MGRS"]];
+const CHART = { width: 380, height: 84, left: 46, bottom: 16, top: 8 };
+
+function svg(tag, attributes, text) {
+  const made = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  if (text !== undefined) made.textContent = text;
+  return made;
+}
+
+/** The clipboard's interface is for secure pages only, which one reached over a network by http is not. */
+async function copy(text, button) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = element("textarea", { value: text });
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+  }
+  button.textContent = "Copied";
+  setTimeout(() => { button.textContent = "Copy"; }, 1200);
+}
+
+function placeList() {
+  return element("dl", { className: "place" }, ...NOTATIONS.flatMap(([, name]) => {
+    const place = element("dd");
+    const button = element("button", { type: "button", textContent: "Copy", ariaLabel: `Copy ${name}` });
+    button.addEventListener("click", () => copy(place.textContent, button));
+    return [element("dt", { textContent: name }), place, button];
+  }));
+}
+
+/** Sigma over time, logarithmic: it falls by powers of ten. */
+function sigmaChart(history) {
+  const points = history.filter(([, , sigma]) => sigma > 0);
+  const { width, height, left, bottom, top } = CHART;
+  const chart = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Sigma over time" });
+  if (points.length < 2) return chart;
+  const [begin, end] = [points[0][0], points.at(-1)[0]];
+  const sigmas = points.map(([, , sigma]) => Math.log10(sigma));
+  const [low, high] = [Math.min(...sigmas) - 0.05, Math.max(...sigmas) + 0.05];
+  const x = (at) => left + (width - left - 4) * (at - begin) / Math.max(1, end - begin);
+  const y = (sigma) => top + (height - top - bottom) * (high - Math.log10(sigma)) / (high - low);
+  for (const sigma of [10 ** high, 10 ** low]) {
+    chart.append(svg("line", { class: "axis", x1: left, x2: width, y1: y(sigma), y2: y(sigma) }),
+      svg("text", { x: left - 6, y: y(sigma) + 4, "text-anchor": "end" }, sigmaText(sigma)));
+  }
+  chart.append(
+    svg("path", { class: "line", d: points.map(([at, , sigma], i) => `${i ? "L" : "M"}${x(at).toFixed(1)} ${y(sigma).toFixed(1)}`).join("") }),
+    svg("text", { x: left, y: height - 1 }, clock(begin)),
+    svg("text", { x: (left + width) / 2, y: height - 1, "text-anchor": "middle" }, "σ over time"),
+    svg("text", { x: width, y: height - 1, "text-anchor": "end" }, clock(end)));
+  return chart;
+}
+
+function facts(object) {
+  const entries = [
+    ["σ major, minor", `${sigmaText(object.major_m)}, ${sigmaText(object.minor_m)}`],
+    ["Major axis", `${number(object.azimuth_deg, 0)}° from north`],
+    ["Confidence", `${number(100 * object.confidence, 1)} %`],
+    ["Hits", String(object.hits)],
+    ["First seen", `${clock(object.first_seen)} UTC`],
+    ["Last seen", `${clock(object.last_seen)} UTC`],
+  ];
+  return element("dl", { className: "figures" }, ...entries.map(([name, value]) =>
+    element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }))));
+}
+
+export class Details {
+  constructor(section, onClose) {
+    this.section = section;
+    this.shown = "";
+    const close = element("button", { type: "button", className: "close", textContent: "×", ariaLabel: "Close" });
+    close.addEventListener("click", onClose);
+    this.title = element("h2");
+    this.place = placeList();
+    this.rest = element("div");
+    section.replaceChildren(element("header", {}, this.title, close), this.place, this.rest);
+  }
+
+  hide() {
+    this.section.hidden = true;
+    this.shown = "";
+  }
+
+  /** `object`: as the list has it. Asks the server for the rest where it has changed. */
+  async show(object) {
+    const version = `${object.id} ${object.hits} ${object.at} ${object.major_m}`;
+    if (version === this.shown) return;
+    this.shown = version;
+    const answer = await fetch(`objects/${object.id}`, { cache: "no-store" }).catch(() => null);
+    if (!answer?.ok || this.shown !== version) return;
+    const { object: current, coordinates, history } = await answer.json();
+    this.title.textContent = `${current.id} · ${current.name}${current.confirmed ? "" : " (tentative)"}`;
+    [...this.place.querySelectorAll("dd")].forEach((place, i) => {
+      place.textContent = coordinates[NOTATIONS[i][0]];
+    });
+    this.rest.replaceChildren(facts(current), sigmaChart(history));
+    this.section.hidden = false;
+  }
+}

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// The map: a canvas with a metric grid that is moved and zoomed by mouse, touch and keys.
+import * as layers from "./layers.js";
+import { Viewport, toDegrees } from "./projection.js";
+
+const REACH_PX = 18; // of a click
+const KEY_STEP_PX = 60;
+const TOOLS_PX = 56; // the buttons at the right edge
+const COLOURS = ["map", "grid", "grid-strong", "ink", "soft", "object", "tentative", "raw", "trajectory", "footprint",
+  "target", "vehicle"];
+
+export class GroundMap extends EventTarget {
+  /** `visible(key)`: whether a layer is to be drawn. `background(pen)`: draws what lies below everything. */
+  constructor(canvas, model, visible, background) {
+    super();
+    this.canvas = canvas;
+    this.model = model;
+    this.visible = visible;
+    this.background = background;
+    this.viewport = new Viewport();
+    this.mode = "fit"; // "fit": all in view; "follow": the vehicle stays in the middle; "free"
+    this.selected = null;
+    this.factor = 1;
+    this.pointers = new Map();
+    this.readColours();
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.readColours());
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    this.listen();
+  }
+
+  readColours() {
+    const style = getComputedStyle(document.documentElement);
+    this.colours = Object.fromEntries(COLOURS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+    this.font = getComputedStyle(document.body).fontFamily;
+    this.redraw();
+  }
+
+  resize() {
+    const ratio = devicePixelRatio || 1;
+    this.viewport.width = this.canvas.clientWidth;
+    this.viewport.height = this.canvas.clientHeight;
+    this.canvas.width = Math.round(this.viewport.width * ratio);
+    this.canvas.height = Math.round(this.viewport.height * ratio);
+    this.redraw();
+  }
+
+  setMode(mode) {
+    if (this.mode === mode) return;
+    this.mode = mode;
+    this.dispatchEvent(new Event("mode"));
+    this.redraw();
+  }
+
+  select(id) {
+    if (this.selected === id) return;
+    this.selected = id;
+    this.dispatchEvent(new Event("select"));
+    this.redraw();
+  }
+
+  redraw() {
+    if (this.isDue) return;
+    this.isDue = true;
+    requestAnimationFrame(() => {
+      this.isDue = false;
+      this.draw();
+    });
+  }
+
+  aim() {
+    const { model, viewport } = this;
+    if (this.mode === "follow" && model.view) viewport.centre = model.view.vehicle;
+    if (this.mode !== "fit") return;
+    const points = [...model.path, ...model.targets, ...model.confirmed().map((object) => object.at)];
+    if (model.view) points.push(model.view.vehicle, ...(model.view.footprint ?? []));
+    viewport.fit(points, TOOLS_PX);
+  }
+
+  draw() {
+    const { model, viewport } = this;
+    this.aim();
+    const context = this.canvas.getContext("2d");
+    const ratio = this.canvas.width / Math.max(1, viewport.width);
+    const pen = { context, viewport, colours: this.colours, font: this.font };
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.fillStyle = this.colours.map;
+    context.fillRect(0, 0, viewport.width, viewport.height);
+    this.background(pen);
+    layers.drawGrid(pen);
+    const now = model.view?.at ?? 0;
+    if (this.visible("footprint") && model.view?.footprint) layers.drawFootprint(pen, model.view.footprint);
+    if (this.visible("path")) layers.drawPath(pen, model.path, model.view?.vehicle);
+    if (this.visible("targets")) layers.drawTargets(pen, model.targets);
+    this.drawObjects(pen, now);
+    if (model.view) layers.drawVehicle(pen, model.view);
+    layers.drawScaleBar(pen);
+  }
+
+  drawObjects(pen, now) {
+    const shown = this.shownObjects();
+    const factor = layers.exaggeration(shown.filter((object) => object.confirmed), this.viewport.scale);
+    if (factor !== this.factor) {
+      this.factor = factor;
+      this.dispatchEvent(new Event("exaggeration"));
+    }
+    if (this.visible("ellipses")) for (const object of shown) layers.drawEllipse(pen, object, factor);
+    if (this.visible("fixes")) layers.drawFixes(pen, this.model.fixes, now);
+    for (const object of shown) layers.drawObject(pen, object, object.id === this.selected);
+    layers.drawLabels(pen, shown.filter((object) => object.confirmed || object.id === this.selected));
+  }
+
+  shownObjects() {
+    return [...this.model.objects.values()].filter((object) => this.visible(object.confirmed ? "objects" : "tentative"));
+  }
+
+  /** A small picture of a layer's mark, for the legend. */
+  symbol(key) {
+    const canvas = document.createElement("canvas");
+    const ratio = devicePixelRatio || 1;
+    const viewport = new Viewport();
+    Object.assign(viewport, { width: 22, height: 16, scale: 1 });
+    canvas.width = viewport.width * ratio;
+    canvas.height = viewport.height * ratio;
+    const context = canvas.getContext("2d");
+    context.scale(ratio, ratio);
+    layers.drawSymbol({ context, viewport, colours: this.colours, font: this.font }, key);
+    return canvas;
+  }
+
+  objectAt(pixel) {
+    let best = null;
+    let nearest = REACH_PX;
+    for (const object of this.shownObjects()) {
+      const [x, y] = this.viewport.toScreen(object.at);
+      const distance = Math.hypot(x - pixel[0], y - pixel[1]);
+      if (distance < nearest) [best, nearest] = [object.id, distance];
+    }
+    return best;
+  }
+
+  pan(dx, dy) {
+    this.viewport.pan(dx, dy);
+    this.setMode("free");
+    this.redraw();
+  }
+
+  zoom(factor, pixel = [this.viewport.width / 2, this.viewport.height / 2]) {
+    this.viewport.zoom(factor, pixel);
+    if (this.mode === "fit") this.setMode("free");
+    this.redraw();
+  }
+
+  degreesAt(pixel) {
+    return this.model.anchor && toDegrees(this.model.anchor, this.viewport.toGround(pixel));
+  }
+
+  listen() {
+    const { canvas } = this;
+    canvas.addEventListener("pointerdown", (event) => this.press(event));
+    canvas.addEventListener("pointermove", (event) => this.move(event));
+    for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, (event) => this.release(event));
+    canvas.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.zoom(Math.exp(-0.0016 * Math.max(-300, Math.min(300, event.deltaY))), [event.offsetX, event.offsetY]);
+    }, { passive: false });
+    canvas.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  press(event) {
+    this.canvas.setPointerCapture(event.pointerId);
+    this.pointers.set(event.pointerId, [event.offsetX, event.offsetY]);
+    if (this.pointers.size === 1) this.travelled = 0;
+  }
+
+  move(event) {
+    const now = [event.offsetX, event.offsetY];
+    this.pointed = now;
+    this.dispatchEvent(new Event("point"));
+    const before = this.pointers.get(event.pointerId);
+    if (!before) return;
+    const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
+    const other = [...this.pointers].find(([id]) => id !== event.pointerId)?.[1];
+    this.pointers.set(event.pointerId, now);
+    this.travelled += Math.hypot(dx, dy);
+    if (this.travelled < 4) return;
+    if (!other) {
+      this.pan(dx, dy);
+      return;
+    }
+    const spread = (point) => Math.max(20, Math.hypot(point[0] - other[0], point[1] - other[1]));
+    this.pan(dx / 2, dy / 2);
+    this.zoom(spread(now) / spread(before), [(now[0] + other[0]) / 2, (now[1] + other[1]) / 2]);
+  }
+
+  release(event) {
+    const isClick = event.type === "pointerup" && this.pointers.size === 1 && this.travelled < 4;
+    this.pointers.delete(event.pointerId);
+    if (isClick) this.select(this.objectAt([event.offsetX, event.offsetY]));
+  }
+
+  key(event) {
+    const actions = {
+      ArrowLeft: () => this.pan(KEY_STEP_PX, 0),
+      ArrowRight: () => this.pan(-KEY_STEP_PX, 0),
+      ArrowUp: () => this.pan(0, KEY_STEP_PX),
+      ArrowDown: () => this.pan(0, -KEY_STEP_PX),
+      "+": () => this.zoom(1.5),
+      "-": () => this.zoom(1 / 1.5),
+      f: () => this.setMode("fit"),
+      v: () => this.setMode("follow"),
+      Escape: () => this.select(null),
+    };
+    const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    action();
+  }
+}

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Joins the parts of the page.
+import { Details } from "./details.js";
+import { LAYERS } from "./layers.js";
+import { GroundMap } from "./map.js";
+import { Model, connect } from "./model.js";
+import * as panels from "./panels.js";
+import { TileLayer } from "./tiles.js";
+import { VideoView } from "./video.js";
+
+const get = (id) => document.getElementById(id);
+const LISTS_MS = 400; // lists are rebuilt no more often: people read them
+
+const model = new Model();
+const shown = Object.fromEntries(LAYERS.map((layer) => [layer.key, layer.on]));
+let tiles = null;
+const map = new GroundMap(get("map-canvas"), model, (key) => shown[key], (pen) => tiles?.draw(pen, model.anchor));
+const video = new VideoView(get("video"), get("video-canvas"), get("video-caption"));
+const details = new Details(get("selected"), () => map.select(null));
+
+function showLegend() {
+  get("layers").replaceChildren(...LAYERS.filter((layer) => layer.key !== "targets" || model.targets.length > 0).map((layer) => {
+    const box = panels.element("input", { type: "checkbox", checked: shown[layer.key] });
+    box.addEventListener("change", () => {
+      shown[layer.key] = box.checked;
+      map.redraw();
+    });
+    const isEnlarged = layer.key === "ellipses" && map.factor > 1;
+    const name = isEnlarged ? `${layer.name}, drawn ×${map.factor}` : layer.name;
+    return panels.element("li", {}, panels.element("label", {}, box, map.symbol(layer.key),
+      panels.element("span", { textContent: name })));
+  }));
+}
+
+function showLists() {
+  panels.showObjects(get("objects"), get("object-count"), model.objects, map.selected, (id) => map.select(id));
+  panels.showRates(get("rates-card"), get("rates"), model);
+  panels.showCalibration(get("calibration-card"), get("calibration"), model.estimator?.calibration);
+  panels.showCounters(get("counters"), model.estimator?.counters);
+  const selected = model.objects.get(map.selected);
+  if (selected) details.show(selected);
+  else details.hide();
+}
+
+function showState() {
+  panels.showLights(get("lights"), model);
+  const time = model.status ? new Date(1000 * model.status.elapsed_s).toISOString().slice(11, 19)
+    : model.view ? `${panels.clock(model.view.at)} UTC` : "";
+  get("run").textContent = [model.run.name, time].filter(Boolean).join(" · ");
+  document.title = `${model.confirmed().length} objects · geoloc`;
+  const trouble = panels.trouble(model);
+  get("notice").hidden = trouble === "";
+  if (get("notice").textContent !== trouble) get("notice").textContent = trouble;
+}
+
+function showReadout() {
+  const degrees = map.pointed && map.degreesAt(map.pointed);
+  if (!degrees) return;
+  const [east, north] = map.viewport.toGround(map.pointed);
+  get("readout").textContent = `${degrees[0].toFixed(6)}, ${degrees[1].toFixed(6)} · ` +
+    `${panels.number(east, 1)} E ${panels.number(north, 1)} N m`;
+}
+
+let listsDue = 0;
+let targets = 0;
+model.addEventListener("change", () => {
+  map.redraw();
+  showState();
+  video.update(model.picture, model.run.is_live && !model.ended);
+  if (model.targets.length !== targets) {
+    targets = model.targets.length;
+    showLegend();
+  }
+  if (!listsDue) {
+    listsDue = setTimeout(() => {
+      listsDue = 0;
+      showLists();
+    }, LISTS_MS);
+  }
+});
+model.addEventListener("connection", showState);
+map.addEventListener("select", showLists);
+map.addEventListener("exaggeration", showLegend);
+map.addEventListener("point", showReadout);
+map.addEventListener("mode", () => {
+  for (const mode of ["fit", "follow"]) get(mode).setAttribute("aria-pressed", map.mode === mode);
+});
+get("zoom-in").addEventListener("click", () => map.zoom(1.5));
+get("zoom-out").addEventListener("click", () => map.zoom(1 / 1.5));
+for (const mode of ["fit", "follow"]) {
+  get(mode).addEventListener("click", () => map.setMode(map.mode === mode ? "free" : mode));
+}
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", showLegend);
+
+fetch("settings").then((answer) => answer.json()).then((settings) => {
+  if (!settings.tile_url) return;
+  tiles = new TileLayer(settings.tile_url, () => map.redraw());
+  get("attribution").textContent = settings.tile_attribution;
+  map.redraw();
+}).catch(() => {});
+showLegend();
+showState();
+connect(model);

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "page_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/io/live_page/coordinate_texts.hpp"
+
+namespace geoloc::io::page_json {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Shortest decimal that reads back as the value to `digits` places; what is not finite is written as null.
+double decimals(double value, int digits) {
+  const double scale = std::pow(10.0, digits);
+  return std::round(value * scale) / scale;
+}
+
+ordered_json point(const Eigen::Vector2d& position_in_enu) {
+  return {decimals(position_in_enu.x(), 3), decimals(position_in_enu.y(), 3)};
+}
+
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+ordered_json calibration(const Calibration& calibration) {
+  using Index = CalibrationIndex;
+  auto rows = ordered_json::array();
+  const auto add = [&](const char* name, const char* unit, int index, double scale, int digits) {
+    rows.push_back({{"name", name},
+                    {"unit", unit},
+                    {"value", decimals(calibration.mean[index] * scale, digits)},
+                    {"sigma", decimals(calibration.sigma(index) * scale, digits)},
+                    {"digits", digits}});
+  };
+  add("Latency", "ms", Index::kLatency, 1e3, 1);
+  add("Boresight x", "°", Index::kBoresight, kDegPerRad, 3);
+  add("Boresight y", "°", Index::kBoresight + 1, kDegPerRad, 3);
+  add("Boresight z", "°", Index::kBoresight + 2, kDegPerRad, 3);
+  add("Height", "m", Index::kHeight, 1.0, 3);
+  add("Offset east", "m", Index::kOffset, 1.0, 3);
+  add("Offset north", "m", Index::kOffset + 1, 1.0, 3);
+  return rows;
+}
+
+}  // namespace
+
+std::int64_t milliseconds(HostTime time) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch()).count();
+}
+
+void append(std::string& object, const std::string& name, const std::string& json) {
+  object += object.empty() ? "{\"" : ",\"";
+  object += name;
+  object += "\":";
+  object += json;
+}
+
+std::string title(const LivePageTitle& title) {
+  return text_of({{"name", title.name}, {"is_live", title.is_live}});
+}
+
+std::string status(const LiveStatus& status) {
+  return text_of({{"elapsed_s", decimals(seconds(status.elapsed), 1)},
+                  {"link", status.link},
+                  {"link_is_good", status.link_is_good},
+                  {"attitude_hz", decimals(status.attitude_rate_hz, 1)},
+                  {"position_hz", decimals(status.position_rate_hz, 1)},
+                  {"video", status.video},
+                  {"video_is_good", status.video_is_good},
+                  {"video_state", status.video_state},
+                  {"video_hz", decimals(status.video_rate_hz, 1)},
+                  {"frame_time", status.frame_time},
+                  {"warning", status.warning},
+                  {"detect_ms", decimals(status.detect_ms, 1)},
+                  {"latency_ms", decimals(status.latency_ms, 1)}});
+}
+
+std::string view(const OutputFrame& frame) {
+  ordered_json json{{"at", milliseconds(frame.captured_at)}};
+  const ViewReport& view = *frame.view;
+  json["vehicle"] = point(view.vehicle_in_enu.head<2>());
+  json["height_m"] = decimals(view.vehicle_in_enu.z(), 2);
+  json["yaw_deg"] = decimals(view.yaw_deg, 1);
+  if (view.footprint) {
+    auto corners = ordered_json::array();
+    for (const GroundPoint& corner : *view.footprint) corners.push_back(point(corner.position_in_enu));
+    json["footprint"] = std::move(corners);
+  }
+  return text_of(json);
+}
+
+std::string targets(const std::vector<Eigen::Vector2d>& positions_in_enu) {
+  constexpr std::size_t kMost = 2000;
+  auto list = ordered_json::array();
+  for (std::size_t i = 0; i < std::min(positions_in_enu.size(), kMost); ++i)
+    list.push_back(point(positions_in_enu[i]));
+  return text_of(list);
+}
+
+std::string picture(const LivePicture& picture, std::uint64_t number,
+                    const std::vector<std::string>& class_names) {
+  auto boxes = ordered_json::array();
+  for (const Detection& detection : picture.detections) {
+    const Box& box = detection.box;
+    const auto name = static_cast<std::size_t>(detection.class_id);
+    boxes.push_back(
+        {{"box", {decimals(box.x, 1), decimals(box.y, 1), decimals(box.width, 1), decimals(box.height, 1)}},
+         {"confidence", decimals(detection.confidence, 2)},
+         {"name",
+          name < class_names.size() ? class_names[name] : "class " + std::to_string(detection.class_id)}});
+  }
+  return text_of({{"number", number},
+                  {"at", milliseconds(picture.captured_at)},
+                  {"width_px", picture.frame_width_px},
+                  {"height_px", picture.frame_height_px},
+                  {"boxes", std::move(boxes)}});
+}
+
+std::string settings(const LivePageConfig& config) {
+  return text_of({{"tile_url", config.tile_url}, {"tile_attribution", config.tile_attribution}});
+}
+
+std::string anchor(const ViewReport& view) {
+  return text_of({{"latitude_deg", view.vehicle.latitude_deg},
+                  {"longitude_deg", view.vehicle.longitude_deg},
+                  {"at", point(view.vehicle_in_enu.head<2>())}});
+}
+
+std::string estimator(const EstimatorReport& report) {
+  const RunCounters& counters = report.counters;
+  ordered_json json{{"counters",
+                     {{"Frames", counters.frames},
+                      {"Frames located", counters.frames_located},
+                      {"Frames without state", counters.frames_unusable},
+                      {"Detections", counters.detections},
+                      {"Without ground point", counters.detections_without_fix},
+                      {"Attitudes", counters.attitudes},
+                      {"Positions", counters.positions},
+                      {"Reboots", counters.reboots},
+                      {"Tracks made", counters.tracks_created},
+                      {"Tracks removed", counters.tracks_removed},
+                      {"Tracks merged", counters.tracks_merged}}}};
+  if (report.calibration) json["calibration"] = calibration(*report.calibration);
+  return text_of(json);
+}
+
+std::string object(const ObjectReport& object, bool is_confirmed) {
+  return text_of({{"id", object.id},
+                  {"confirmed", is_confirmed},
+                  {"name", object.class_name},
+                  {"class", object.class_id},
+                  {"at", point(object.position_in_enu)},
+                  {"major_m", decimals(object.ellipse.sigma_major_m, 3)},
+                  {"minor_m", decimals(object.ellipse.sigma_minor_m, 3)},
+                  {"azimuth_deg", decimals(object.ellipse.azimuth_deg, 0)},
+                  {"confidence", decimals(object.confidence, 3)},
+                  {"hits", object.hits},
+                  {"first_seen", milliseconds(object.first_seen)},
+                  {"last_seen", milliseconds(object.last_seen)}});
+}
+
+std::string details(const ObjectReport& report, const std::string& object_json,
+                    const std::string& history_json) {
+  const CoordinateTexts texts = coordinate_texts(report.position);
+  std::string json;
+  append(json, "object", object_json);
+  append(json, "coordinates",
+         text_of({{"degrees", texts.degrees}, {"dms", texts.dms}, {"utm", texts.utm}, {"mgrs", texts.mgrs}}));
+  append(json, "history", history_json);
+  return json + "}";
+}
+
+}  // namespace geoloc::io::page_json

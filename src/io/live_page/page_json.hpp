@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "geoloc/io/live_page/live_document.hpp"
+#include "geoloc/io/live_page/live_page_config.hpp"
+#include "geoloc/io/live_page/picture_board.hpp"
+
+// The parts of what the page is sent, as JSON texts. What is not finite becomes null; bytes that are not
+// UTF-8 are replaced.
+namespace geoloc::io::page_json {
+
+std::string title(const LivePageTitle& title);
+std::string status(const LiveStatus& status);
+std::string view(const OutputFrame& frame);
+std::string estimator(const EstimatorReport& report);
+std::string object(const ObjectReport& object, bool is_confirmed);
+
+std::string targets(const std::vector<Eigen::Vector2d>& positions_in_enu);
+
+/// The boxes of a picture, in the frame's pixels.
+std::string picture(const LivePicture& picture, std::uint64_t number,
+                    const std::vector<std::string>& class_names);
+
+/// What the page needs to know of the configuration.
+std::string settings(const LivePageConfig& config);
+
+/// A place known in both frames: with it the page turns east and north into degrees.
+std::string anchor(const ViewReport& view);
+
+/// One more `"name":value` of an object that is written piece by piece.
+void append(std::string& object, const std::string& name, const std::string& json);
+
+/// `object` without its closing brace, and what a click on it shows besides.
+std::string details(const ObjectReport& report, const std::string& object_json,
+                    const std::string& history_json);
+
+/// Milliseconds since 1970, UTC.
+std::int64_t milliseconds(HostTime time);
+
+}  // namespace geoloc::io::page_json

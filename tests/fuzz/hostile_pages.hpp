@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "geoloc/io/live_page/live_page_config.hpp"
+#include "geoloc/io/live_page/live_site.hpp"
+
+namespace geoloc::io::hostile {
+
+/// The words of a text, one space apart; missing ones are empty.
+inline std::string word(const std::string& text, int number) {
+  std::size_t begin = 0;
+  for (; number > 0 && begin != std::string::npos; --number) {
+    begin = text.find(' ', begin);
+    if (begin != std::string::npos) ++begin;
+  }
+  return begin == std::string::npos ? "" : text.substr(begin, text.find(' ', begin) - begin);
+}
+
+/// Reads bytes as a request, an endpoint and a tile URL. Aborts where an answer breaks its promises.
+inline void ask_for_pages(const std::string& bytes) {
+  static const LiveDocument document{{"run", true}};
+  static PictureBoard board{{"target"}, std::chrono::milliseconds{100}};
+  static const LiveSite site{document, board, {}, {"localhost"}};
+  const PageRequest request{word(bytes, 0), word(bytes, 1), word(bytes, 2), word(bytes, 3), word(bytes, 4)};
+  const PageAnswer answer = site.answer(request);
+  const bool is_ours = is_own_host(request.host, {"localhost"});
+  if (answer.status == 200 && !is_ours) std::abort();
+  if (answer.status < 200 || answer.status > 499) std::abort();
+
+  const std::string origin = tile_origin(word(bytes, 5));  // goes into a header
+  if (origin.find_first_of(" ;,'\r\n\"") != std::string::npos) std::abort();
+  try {
+    const HttpEndpoint endpoint = parse_http_endpoint(bytes);
+    if (endpoint.host.empty()) std::abort();
+  } catch (const std::invalid_argument&) {  // what is none is refused
+  }
+}
+
+}  // namespace geoloc::io::hostile

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/live_page/live_document.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "page_frames.hpp"
+
+namespace geoloc::io {
+namespace {
+
+using nlohmann::json;
+using testing::page_frame;
+using testing::page_object;
+
+/// What the page's script does with the changes (page/model.js).
+struct Mirror {
+  LiveDocument::Cursor cursor;
+  std::map<std::uint64_t, json> objects;
+  json path = json::array();
+  json fixes = json::array();
+
+  json take(const LiveDocument& document) {
+    const json change = json::parse(document.changes(cursor));
+    for (const json& object : change["objects"]) objects[object["id"]] = object;
+    if (change.contains("ids")) {
+      std::map<std::uint64_t, json> living;
+      for (const json& id : change["ids"]) living[id] = objects.at(id);
+      objects = living;
+    }
+    if (change.contains("path_begins_anew")) path = json::array();
+    path.insert(path.end(), change["path"].begin(), change["path"].end());
+    fixes.insert(fixes.end(), change["fixes"].begin(), change["fixes"].end());
+    return change;
+  }
+};
+
+TEST(LiveDocument, ANewPageIsToldEverything) {
+  LiveDocument document({"the run", true});
+  document.add(page_frame(1, 3));
+  Mirror page;
+  const json change = page.take(document);
+  EXPECT_EQ(change["run"]["name"], "the run");
+  EXPECT_EQ(page.objects.size(), 3U);
+  EXPECT_EQ(change["view"]["height_m"], 20.0);
+  EXPECT_EQ(change["anchor"]["latitude_deg"], 1.0);
+}
+
+TEST(LiveDocument, ChangesAddUpToTheWholeHoweverOftenAPageLooks) {
+  LiveDocument document({"", true});
+  Mirror eager, lazy;
+  for (int number = 0; number < 5000; ++number) {  // more than the path's capacity
+    OutputFrame frame = page_frame(number, 4);
+    frame.objects[1].hits = number;
+    if (number % 7 == 3) frame.objects.erase(frame.objects.begin());  // gone, and back
+    document.add(frame);
+    eager.take(document);
+    if (number % 1000 == 0) lazy.take(document);
+  }
+  lazy.take(document);
+  Mirror fresh;
+  fresh.take(document);
+  for (const Mirror* page : {&eager, &lazy}) {
+    EXPECT_EQ(page->objects, fresh.objects);
+    EXPECT_EQ(page->path, fresh.path);
+    EXPECT_EQ(page->fixes.back(), fresh.fixes.back());
+  }
+}
+
+TEST(LiveDocument, WhatDidNotChangeIsNotSaidAgain) {
+  LiveDocument document({"", true});
+  document.add(page_frame(1, 1000));
+  Mirror page;
+  page.take(document);
+  document.add(page_frame(2, 1000));
+  const json change = page.take(document);
+  EXPECT_TRUE(change["objects"].empty());
+  EXPECT_FALSE(change.contains("run"));
+  EXPECT_FALSE(change.contains("estimator"));  // it counts nothing in these frames
+  EXPECT_TRUE(change.contains("view"));
+}
+
+TEST(LiveDocument, StaysBoundedOnALongFlight) {
+  LiveDocument document({"", true});
+  for (int number = 0; number < 20000; ++number) document.add(page_frame(number, 1));
+  Mirror page;
+  page.take(document);
+  EXPECT_LE(page.path.size(), 4096U);
+  EXPECT_LE(page.fixes.size(), 3000U);
+}
+
+TEST(LiveDocument, HostileNamesStayText) {
+  LiveDocument document({"</script>\xff\x01", true});
+  OutputFrame frame = page_frame(1, 1);
+  frame.objects[0].class_name = "\"]}\n\ndata: {\xc3\x28<img onerror=x>\x01";
+  document.add(frame);
+  LiveDocument::Cursor cursor;
+  const std::string text = document.changes(cursor);
+  EXPECT_EQ(text.find('\n'), std::string::npos);  // an event is one line
+  const json change = json::parse(text);
+  EXPECT_NE(change["objects"][0]["name"].get<std::string>().find("<img onerror=x>"), std::string::npos);
+}
+
+TEST(LiveDocument, WhatIsNotFiniteIsLeftOut) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  LiveDocument document({"", true});
+  OutputFrame frame = page_frame(1, 2);
+  frame.objects[0].position_in_enu.x() = nan;
+  frame.objects[1].ellipse.sigma_major_m = nan;
+  frame.view->vehicle_in_enu.x() = nan;
+  frame.fixes[0].ground.position_in_enu.y() = std::numeric_limits<double>::infinity();
+  document.add(frame);
+  Mirror page;
+  page.take(document);
+  ASSERT_EQ(page.objects.size(), 1U);
+  EXPECT_TRUE(page.objects.at(2)["major_m"].is_null());
+  EXPECT_TRUE(page.path.empty());
+  EXPECT_TRUE(page.fixes.empty());
+  EXPECT_TRUE(json::accept(*document.object(2)));
+}
+
+TEST(LiveDocument, AnObjectTellsItsPlaceAndItsHistory) {
+  LiveDocument document({"", true});
+  for (int number = 1; number <= 1000; ++number) {
+    OutputFrame frame = page_frame(number, 1);
+    frame.objects[0].hits = number;
+    frame.objects[0].ellipse.sigma_major_m = 1.0 / number;
+    document.add(frame);
+  }
+  const json details = json::parse(*document.object(1));
+  EXPECT_EQ(details["coordinates"]["degrees"], "1.00000000, 2.00000100");
+  EXPECT_LE(details["history"].size(), 128U);
+  EXPECT_EQ(details["history"].front()[1], 1);
+  EXPECT_EQ(details["history"].back()[1], 1000);
+  EXPECT_FALSE(document.object(99));
+}
+
+}  // namespace
+}  // namespace geoloc::io
