@@ -9,10 +9,12 @@
 #include "app/live_run.hpp"
 #include "app/live_status.hpp"
 #include "app/options.hpp"
+#include "app/page_pictures.hpp"
 #include "app/recorder.hpp"
 #include "app/stop_signal.hpp"
 #include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
+#include "common/live_page_output.hpp"
 #include "common/outputs.hpp"
 #include "common/periodic.hpp"
 #include "common/run_outputs.hpp"
@@ -41,6 +43,8 @@ struct Program {
                 }),
         outputs(inputs.detector->class_names(), {}) {
     add_sinks(given.outputs, inputs.config.estimation, outputs);
+    page = open_live_page(given.outputs.http, inputs.config.estimation.live_page, {source(), true},
+                          inputs.detector->class_names(), outputs);
     recorder.write([this](io::RecordingWriter& writer) {
       writer.write_camera(inputs.config.estimation.geolocator.camera);
       writer.write_config(live_to_json(inputs.config).dump(2));
@@ -49,9 +53,11 @@ struct Program {
     });
   }
 
+  /// For people; the stream's address may hold a password.
+  std::string source() const { return options.rtsp_url.empty() ? options.video_file : "live run"; }
+
   io::RunRecord record() const {
-    const std::string source = options.rtsp_url.empty() ? options.video_file : "live run";
-    return record_run(session, inputs.detector->class_names(), inputs.truth, "geoloc: " + source);
+    return record_run(session, inputs.detector->class_names(), inputs.truth, "geoloc: " + source());
   }
 
   LiveOptions options;
@@ -61,6 +67,7 @@ struct Program {
   VehicleReports reports;
   Session session;
   Outputs outputs;
+  std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
 };
 
 void tell_all(const std::vector<std::string>& messages, Console& console) {
@@ -68,11 +75,18 @@ void tell_all(const std::vector<std::string>& messages, Console& console) {
 }
 
 /// Until the video ends or the user has enough.
-void run_until_stopped(Program& program, Console& console) {
-  const StopSignal stop;
+void run_until_stopped(Program& program, Console& console, const StopSignal& stop) {
   const LiveInputs& inputs = program.inputs;
+  std::optional<PagePictures> pictures;
+  DetectionWorker::OnDetected on_detected;
+  if (program.page) {
+    pictures.emplace(program.page, inputs.config.estimation.live_page.picture_width_px);
+    on_detected = [&pictures](const io::VideoFrame& frame, const std::vector<Detection>& detections) {
+      pictures->offer(frame, detections);
+    };
+  }
   DetectionWorker worker(*inputs.video, *inputs.detector,
-                         inputs.config.estimation.geolocator.camera.intrinsics, program.clock);
+                         inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
   LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.reports, program.clock,
               [&program](const PendingFrame& frame, bool is_located) {
                 program.outputs.frame(program.session, frame, is_located);
@@ -113,9 +127,11 @@ int main(int argc, char** argv) {
   if (unusable) return *unusable;
   if (!program) return kDone;
 
+  const StopSignal stop;
   Console console;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
-  run_until_stopped(*program, console);
+  if (program->page) console.say("page: " + program->page->url());
+  run_until_stopped(*program, console, stop);
 
   program->recorder.finish();
   const io::RunRecord record = program->record();

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays a recording: the same objects, the same bytes, every time.
 #include <CLI/CLI.hpp>
-#include <csignal>
 #include <cstdio>
+#include <memory>
 #include <optional>
+#include <thread>
+#include <utility>
 
+#include "app/stop_signal.hpp"
 #include "common/command_line.hpp"
 #include "common/estimation_config.hpp"
+#include "common/live_page_output.hpp"
 #include "common/outputs.hpp"
 #include "common/progress.hpp"
 #include "common/replay.hpp"
+#include "common/replay_pace.hpp"
 #include "common/run_outputs.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
 
@@ -25,6 +30,7 @@ struct Options {
   std::string truth_file;
   bool keep_going = false;
   bool print_config = false;
+  std::optional<double> speed;
   PriorFiles priors;
   OutputFiles outputs;
 };
@@ -63,61 +69,108 @@ void add_options(CLI::App& program, Options& options) {
       ->type_name("FILE");
   program.add_flag("--keep-going", options.keep_going, "Skip bad lines of frames.jsonl, and count them");
   program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
+  program
+      .add_option("--speed", options.speed,
+                  "Times the recorded speed; 0: as fast as it computes. Default: 1 with --http, otherwise 0")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("X");
   add_prior_options(program, options.priors);
   add_output_options(program, options.outputs);
+}
+
+/// All that a replay is made of, once its arguments and files have proved usable.
+struct Program {
+  Program(const Options& given, io::Recording its_recording, const EstimationConfig& config)
+      : options(given),
+        recording(std::move(its_recording)),
+        truth(given.truth_file.empty() ? recording.truth : io::read_truth(given.truth_file)),
+        session(config),
+        // A replay is faster than its sinks, so it waits for them.
+        outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
+    add_sinks(options.outputs, config, outputs);
+    page = open_live_page(options.outputs.http, config.live_page, {options.recording, false},
+                          recording.class_names, outputs);
+  }
+
+  void tell_all() {
+    for (const std::string& message : outputs.take_messages())
+      std::fprintf(stderr, "geoloc_replay: %s\n", message.c_str());
+  }
+
+  Options options;
+  io::Recording recording;
+  std::vector<io::TrueTarget> truth;
+  Session session;
+  Outputs outputs;
+  std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
+};
+
+/// The program; empty after --print-config.
+std::unique_ptr<Program> make_program(const Options& options) {
+  if (options.recording.empty() && !options.print_config)
+    throw std::runtime_error("name a RECORDING; see --help");
+  std::optional<io::Recording> recording;
+  if (!options.recording.empty()) {
+    recording = io::read_recording(options.recording,
+                                   options.keep_going ? io::BadLines::kSkip : io::BadLines::kRefuse);
+  }
+  const EstimationConfig config = choose_config(options, recording ? &*recording : nullptr);
+  if (options.print_config) {
+    std::puts(estimation_to_json(config).dump(2).c_str());
+    return nullptr;
+  }
+  return std::make_unique<Program>(options, std::move(*recording), config);
+}
+
+void replay_all(Program& program, const StopSignal& stop) {
+  const double speed = program.options.speed.value_or(program.page ? 1.0 : 0.0);
+  const std::size_t frames = program.recording.frames.size();
+  ReplayPace pace(speed);
+  ProgressLine progress("replaying", frames);
+  std::size_t done = 0;
+  replay(program.recording.telemetry, program.recording.frames, program.session,
+         [&](const PendingFrame& frame, bool is_located) {
+           pace.wait_for(frame.captured_at, [&stop] { return stop.is_requested(); });
+           program.outputs.frame(program.session, frame, is_located);
+           progress.show(++done);
+           return !stop.is_requested();
+         });
+  progress.finish();
+}
+
+/// The page stays to be looked at, until Ctrl-C.
+void keep_page(const Program& program, const StopSignal& stop) {
+  if (!program.page || stop.is_requested()) return;
+  std::fprintf(stderr, "geoloc_replay: the page stays at %s; Ctrl-C ends it\n", program.page->url().c_str());
+  while (!stop.is_requested()) std::this_thread::sleep_for(std::chrono::milliseconds{50});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program("Replays a recording of geoloc_app or geoloc_sim and writes the objects found.",
-                   "geoloc_replay");
+  CLI::App cli("Replays a recording of geoloc_app or geoloc_sim and writes the objects found.",
+               "geoloc_replay");
   Options options;
-  add_options(program, options);
-  if (const auto status = parse(program, argc, argv)) return *status;
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that went is an output's error, not the replay's end
+  add_options(cli, options);
+  if (const auto status = parse(cli, argc, argv)) return *status;
 
-  std::optional<io::Recording> recording;
-  std::optional<Session> session;
-  std::optional<Outputs> outputs;
-  std::vector<io::TrueTarget> truth;
-  const auto unusable = guard("geoloc_replay", kUnusable, [&] {
-    if (options.recording.empty() && !options.print_config)
-      throw std::runtime_error("name a RECORDING; see --help");
-    if (!options.recording.empty()) {
-      recording = io::read_recording(options.recording,
-                                     options.keep_going ? io::BadLines::kSkip : io::BadLines::kRefuse);
-    }
-    const EstimationConfig config = choose_config(options, recording ? &*recording : nullptr);
-    if (options.print_config) {
-      std::puts(estimation_to_json(config).dump(2).c_str());
-      return;
-    }
-    truth = options.truth_file.empty() ? recording->truth : io::read_truth(options.truth_file);
-    session.emplace(config);
-    // A replay is faster than its sinks, so it waits for them.
-    outputs.emplace(recording->class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait});
-    add_sinks(options.outputs, config, *outputs);
-  });
+  std::unique_ptr<Program> program;
+  const auto unusable = guard("geoloc_replay", kUnusable, [&] { program = make_program(options); });
   if (unusable) return *unusable;
-  if (options.print_config) return kDone;
+  if (!program) return kDone;
 
-  if (recording->skipped_lines > 0)
-    std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", recording->skipped_lines);
-  const std::size_t frames = recording->frames.size();
-  ProgressLine progress("replaying", frames);
-  std::size_t done = 0;
-  replay(recording->telemetry, recording->frames, *session, [&](const PendingFrame& frame, bool is_located) {
-    outputs->frame(*session, frame, is_located);
-    progress.show(++done);
-  });
-  progress.finish();
+  const StopSignal stop;
+  if (program->recording.skipped_lines > 0)
+    std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", program->recording.skipped_lines);
+  if (program->page) std::fprintf(stderr, "page: %s\n", program->page->url().c_str());
+  replay_all(*program, stop);
 
-  const io::RunRecord record = record_run(*session, recording->class_names, truth, options.recording);
-  outputs->finish(record);
-  for (const std::string& message : outputs->take_messages())
-    std::fprintf(stderr, "geoloc_replay: %s\n", message.c_str());
+  const io::RunRecord record =
+      record_run(program->session, program->recording.class_names, program->truth, options.recording);
+  program->outputs.finish(record);
+  program->tell_all();
   if (!options.outputs.has_objects()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   std::fprintf(stderr, "%s\n", record.summary.c_str());
-  return outputs->has_failed() ? kFailed : kDone;
+  keep_page(*program, stop);
+  return program->outputs.has_failed() ? kFailed : kDone;
 }

@@ -11,8 +11,14 @@ constexpr std::size_t kLongestQueue = 64;
 }  // namespace
 
 DetectionWorker::DetectionWorker(io::VideoSource& source, io::Detector& detector,
-                                 const CameraIntrinsics& camera, const io::HostClock& clock)
-    : source_(source), detector_(detector), camera_(camera), clock_(clock), thread_([this] { run(); }) {}
+                                 const CameraIntrinsics& camera, const io::HostClock& clock,
+                                 OnDetected on_detected)
+    : source_(source),
+      detector_(detector),
+      camera_(camera),
+      clock_(clock),
+      on_detected_(std::move(on_detected)),
+      thread_([this] { run(); }) {}
 
 DetectionWorker::~DetectionWorker() {
   stop_ = true;
@@ -52,6 +58,7 @@ void DetectionWorker::detect(const io::VideoFrame& frame) {
   const HostTime started = clock_.now();
   DetectedFrame result{frame.captured_at, frame.received_at, frame.time_quality, detector_.detect(frame.bgr)};
   const double took_ms = 1e3 * seconds(clock_.now() - started);
+  if (on_detected_) on_detected_(frame, result.detections);
 
   const std::lock_guard lock(mutex_);
   ++stats_.detected;

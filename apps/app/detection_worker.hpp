@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -37,9 +38,13 @@ class DetectionWorker {
     std::string wrong_size_message;  ///< the latest, for the user
   };
 
+  /// Called in the worker's thread with each frame that was searched; must be quick.
+  using OnDetected =
+      std::function<void(const io::VideoFrame& frame, const std::vector<Detection>& detections)>;
+
   /// Source, detector and clock must outlive the worker. Starts at once.
   DetectionWorker(io::VideoSource& source, io::Detector& detector, const CameraIntrinsics& camera,
-                  const io::HostClock& clock);
+                  const io::HostClock& clock, OnDetected on_detected = {});
   ~DetectionWorker();
   DetectionWorker(const DetectionWorker&) = delete;
   DetectionWorker& operator=(const DetectionWorker&) = delete;
@@ -61,6 +66,7 @@ class DetectionWorker {
   io::Detector& detector_;
   CameraIntrinsics camera_;
   const io::HostClock& clock_;
+  OnDetected on_detected_;
   std::atomic<bool> stop_{false};
   std::atomic<bool> ended_{false};
   mutable std::mutex mutex_;  // guards what follows

@@ -26,6 +26,11 @@ void add_output_options(CLI::App& program, OutputFiles& files) {
               "URL");
   add("--raw", files.raw, "Every located detection, CSV");
   add("--picture", files.picture, "Map of the run, SVG");
+  program
+      .add_option("--http", files.http,
+                  "A page that shows the run, for browsers: PORT for those of this computer, or HOST:PORT")
+      ->type_name("[HOST:]PORT")
+      ->group("Outputs");
 }
 
 void add_prior_options(CLI::App& program, PriorFiles& files) {

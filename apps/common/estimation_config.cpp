@@ -24,6 +24,17 @@ void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, LivePageConfig& page) {
+  v.field("max_pages", page.max_pages, "open at a time; a further one is refused");
+  v.field("update_period_s", page.update_period_s, "s, a page gets news no more often");
+  v.field("write_timeout_s", page.write_timeout_s, "s, a page that takes nothing for so long is dropped");
+  v.field("picture_width_px", page.picture_width_px, "px, of the video's pictures on the page");
+  v.field("picture_period_s", page.picture_period_s, "s between them at least");
+  v.field("tile_url", page.tile_url, "of a background map, with {z}, {x}, {y}; empty: a metric grid alone");
+  v.field("tile_attribution", page.tile_attribution, "what the map's maker wants to be read beside it");
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, CotConfig& cot) {
   v.field("uid_prefix", cot.uid_prefix, "of every object's uid");
   v.field("type", cot.type, "CoT type of objects: unknown, on the ground");
@@ -49,6 +60,7 @@ nlohmann::ordered_json estimation_to_json(const EstimationConfig& config) {
   auto json = io::geolocator_to_json(config.geolocator);
   json["mavlink"] = section_to_json(config.mavlink);
   json["frames"] = section_to_json(config.frames);
+  json["live_page"] = section_to_json(config.live_page);
   json["cot"] = section_to_json(config.cot);
   return json;
 }
@@ -57,6 +69,7 @@ std::vector<io::FieldLine> estimation_field_lines() {
   auto lines = io::geolocator_field_lines();
   list_section<io::MavlinkConfig>("mavlink", lines);
   list_section<FrameConfig>("frames", lines);
+  list_section<io::LivePageConfig>("live_page", lines);
   list_section<io::CotConfig>("cot", lines);
   return lines;
 }
@@ -67,12 +80,13 @@ void estimation_from_json(const nlohmann::json& document, const std::vector<std:
   if (document.is_object()) {
     read_section(document, "mavlink", config.mavlink, problems);
     read_section(document, "frames", config.frames, problems);
+    read_section(document, "live_page", config.live_page, problems);
     read_section(document, "cot", config.cot, problems);
-    for (const char* section : {"mavlink", "frames", "cot"}) rest.erase(section);
+    for (const char* section : {"mavlink", "frames", "live_page", "cot"}) rest.erase(section);
     for (const std::string& section : ignored_sections) rest.erase(section);
   }
   io::geolocator_from_json(rest, config.geolocator, problems);
-  for (const auto& found : {config.mavlink.problems(), config.cot.problems()}) {
+  for (const auto& found : {config.mavlink.problems(), config.live_page.problems(), config.cot.problems()}) {
     problems.insert(problems.end(), found.begin(), found.end());
   }
   if (!(config.frames.max_wait_s >= 0.0 && config.frames.max_wait_s <= 60.0)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geoloc/io/json/fields.hpp"
+#include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
 #include "geoloc/io/output/cot_config.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
@@ -21,6 +22,7 @@ struct EstimationConfig {
   GeolocatorConfig geolocator;
   io::MavlinkConfig mavlink;
   FrameConfig frames;
+  io::LivePageConfig live_page;
   io::CotConfig cot;
 };
 

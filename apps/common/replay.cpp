@@ -40,13 +40,13 @@ void take_what_was_known(TelemetryFeed& feed, const io::RecordedFrame& frame, co
 }  // namespace
 
 void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& frames, Session& session,
-            const std::function<void(const PendingFrame& frame, bool is_located)>& on_frame) {
+            const std::function<bool(const PendingFrame& frame, bool is_located)>& on_frame) {
   TelemetryFeed feed(telemetry, session);
   for (const io::RecordedFrame& frame : frames) {
     take_what_was_known(feed, frame, session);
     const PendingFrame pending{frame.captured_at, frame.detections};
     const bool is_located = session.process(pending);
-    if (on_frame) on_frame(pending, is_located);
+    if (on_frame && !on_frame(pending, is_located)) return;
   }
   while (!feed.is_empty()) feed.take();  // a live run counts what comes after its last frame, too
 }

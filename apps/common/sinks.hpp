@@ -13,6 +13,7 @@ struct OutputFiles {
   std::string objects;             ///< GeoJSON
   std::string raw;                 ///< CSV of every located detection
   std::string picture;             ///< SVG
+  std::string http;                ///< [HOST:]PORT of the live page
   std::string csv;                 ///< of the objects
   std::string kml;                 ///< of the run
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/outputs.hpp"
+#include "geoloc/io/live_page/live_page.hpp"
+
+namespace geoloc::apps {
+
+/// Opens the page of --http and adds it to the outputs; nullptr where `endpoint` is empty. It is served as
+/// long as it is held. Throws std::exception saying what is wrong with the endpoint.
+std::shared_ptr<io::LivePage> open_live_page(const std::string& endpoint, const io::LivePageConfig& config,
+                                             const io::LivePageTitle& title,
+                                             const std::vector<std::string>& class_names, Outputs& outputs);
+
+}  // namespace geoloc::apps
