@@ -4,7 +4,7 @@
 BUILD_PACKAGES=(
   g++ make cmake ninja-build pkg-config python3 python3-venv
   libeigen3-dev libgeographiclib-dev
-  nlohmann-json3-dev libcli11-dev libfmt-dev libyaml-cpp-dev zlib1g-dev
+  nlohmann-json3-dev libcli11-dev libcpp-httplib-dev libfmt-dev libyaml-cpp-dev zlib1g-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-dnn-dev
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstrtspserver-1.0-dev
 )
@@ -12,7 +12,7 @@ RUN_PACKAGES=(
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-plugins-ugly
   gstreamer1.0-libav
 )
-TEST_PACKAGES=(git ccache libgtest-dev libbenchmark-dev gdal-bin)
+TEST_PACKAGES=(git ccache chromium libgtest-dev libbenchmark-dev gdal-bin)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }

@@ -1,0 +1,264 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The live page: in a browser over a live run, and before visitors of all kinds."""
+import http.server
+import json
+import math
+import re
+import shutil
+import socket
+import threading
+import unittest
+import urllib.request
+
+from support import BIN, PATIENCE_S, AppTest, Live, World, run
+
+try:
+    from playwright.sync_api import sync_playwright
+except ImportError:
+    sync_playwright = None
+
+CHROMIUM = shutil.which("chromium")
+SCREENSHOTS = BIN.parent / "screenshots"  # for people to look at
+HOSTILE_NAME = "<img src=x onerror=document.title='run'>\"&"
+
+SCREENS = {
+    "desktop_light": {"viewport": {"width": 1360, "height": 820}, "color_scheme": "light"},
+    "desktop_dark": {"viewport": {"width": 1360, "height": 820}, "color_scheme": "dark"},
+    "phone_light": {"viewport": {"width": 390, "height": 844}, "color_scheme": "light", "device_scale_factor": 2,
+                    "has_touch": True},
+    "phone_dark": {"viewport": {"width": 390, "height": 844}, "color_scheme": "dark", "device_scale_factor": 2,
+                   "has_touch": True},
+}
+
+# Where the map shows the first pixel of a colour, in the page's coordinates; null where there is none.
+FIND_COLOUR = """([selector, colour]) => {
+  const canvas = document.querySelector(selector), probe = document.createElement("canvas").getContext("2d");
+  probe.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(colour).trim() || colour;
+  probe.fillRect(0, 0, 1, 1);
+  const [r, g, b] = probe.getImageData(0, 0, 1, 1).data, { width, height } = canvas;
+  const pixels = canvas.getContext("2d").getImageData(0, 0, width, height).data, box = canvas.getBoundingClientRect();
+  for (let y = Math.ceil(height * 0.3); y < height; ++y) {
+    for (let x = 0; x < width; ++x) {
+      const i = 4 * (y * width + x);
+      if (Math.abs(pixels[i] - r) + Math.abs(pixels[i + 1] - g) + Math.abs(pixels[i + 2] - b) < 6)
+        return [box.x + x * box.width / width, box.y + y * box.height / height];
+    }
+  }
+  return null;
+}"""
+
+
+# A canvas on which a picture of another server was drawn cannot be read.
+IS_TAINTED = """() => {
+  try {
+    document.querySelector("#map-canvas").getContext("2d").getImageData(0, 0, 1, 1);
+    return false;
+  } catch {
+    return true;
+  }
+}"""
+
+
+def tile_of(feature, zoom):
+    """The Web Mercator tile that holds a GeoJSON point."""
+    longitude, latitude = map(math.radians, feature["geometry"]["coordinates"])
+    turns = (longitude / math.tau + 0.5, 0.5 - math.asinh(math.tan(latitude)) / math.tau)
+    return (zoom, *(int(2**zoom * turn) for turn in turns))
+
+
+def url_of(program):
+    return program.wait_for(r"^page: (http://127\.0\.0\.1:\d+/)")[1]
+
+
+TILE = b'<svg xmlns="http://www.w3.org/2000/svg" width="256" height="256"><path d="M0 0h256v256H0z" fill="#d0e8c0"/></svg>'
+
+
+class TileServer:
+    """A map of one colour; `asked` holds the (zoom, x, y) that it was asked for."""
+
+    def __init__(self):
+        self.asked = asked = set()
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                asked.add(tuple(map(int, re.findall(r"\d+", self.path))))
+                self.send_response(200)
+                self.send_header("Content-Type", "image/svg+xml")
+                self.end_headers()
+                self.wfile.write(TILE)
+
+            def log_message(self, *_):
+                pass
+
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self._thread = threading.Thread(target=self._server.serve_forever)
+        self.url = f"http://127.0.0.1:{self._server.server_port}/{{z}}/{{x}}/{{y}}.svg"
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._server.shutdown()
+        self._thread.join()
+        self._server.server_close()
+
+
+@unittest.skipUnless(sync_playwright, "no Playwright: scripts/test.sh installs it")
+@unittest.skipUnless(CHROMIUM, "no Chromium: apt-get install chromium")
+class LivePage(AppTest):
+    """What an operator is promised, on a telephone and on a desk, by day and by night."""
+
+    def setUp(self):
+        super().setUp()
+        self.objects_file = self.folder / "objects.geojson"
+        self.faults = []
+        self.hosts = set()
+        self.playwright = sync_playwright().start()
+        self.addCleanup(self.playwright.stop)
+        self.browser = self.playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        self.addCleanup(self.browser.close)
+
+    def open_screen(self, name, url):
+        context = self.browser.new_context(permissions=["clipboard-read", "clipboard-write"], **SCREENS[name])
+        page = context.new_page()
+        page.set_default_timeout(1000 * PATIENCE_S)
+        page.on("pageerror", lambda error: self.faults.append(f"{name}: {error}"))
+        page.on("console", lambda message: self.faults.append(f"{name}: {message.text}")
+                if message.type == "error" else None)
+        page.on("request", lambda request: self.hosts.add(request.url.split("/")[2]))
+        page.goto(url)
+        return page
+
+    def test_shows_a_live_run_on_every_screen(self):
+        names = self.write("names.txt", HOSTILE_NAME + "\n")
+        world = World()
+        with world.watch("--http", "0", "--class-names", names, "--out", self.objects_file) as app:
+            url = url_of(app)
+            pages = {name: self.open_screen(name, url) for name in SCREENS}
+            with world.fly("--start-s", 80, "--end-s", 98, "--speed", 3):
+                pages["desktop_light"].wait_for_selector("#video:not([hidden])")
+                self.assertTrue(self.finds_colour(pages["desktop_light"], "#video-canvas", "#ffd23f"))
+                for page in pages.values():
+                    page.wait_for_selector("#objects tbody tr:not(.tentative)")
+                self.check_state(pages["desktop_light"])
+                for name, page in pages.items():
+                    self.check_screen(name, page, url)
+                self.check_copy(pages["desktop_light"])
+            self.assertEqual(self.faults, [])
+            self.assertEqual(self.hosts, {url.split("/")[2]})
+            self.assertEqual(app.interrupt(), 0)  # with all pages open
+            pages["phone_dark"].wait_for_selector("#notice:has-text('does not answer')")
+
+    def test_draws_the_tiles_of_a_server_where_one_is_configured(self):
+        with TileServer() as tiles:
+            config = self.write("config.json", {"live_page": {"tile_url": tiles.url, "tile_attribution": "<b>Maps</b>"}})
+            with Live("geoloc_replay", self.make_recording(), "--config", config, "--http", "0", "--speed", "0",
+                      "--out", self.objects_file) as replay:
+                url = url_of(replay)
+                replay.wait_for("the page stays at")
+                page = self.open_screen("desktop_light", url)
+                page.wait_for_function(IS_TAINTED)
+                self.assertEqual(page.locator("#attribution").inner_text(), "<b>Maps</b>")
+                self.assertEqual(replay.interrupt(), 0)
+        self.assertEqual([fault for fault in self.faults if "CONNECTION" not in fault], [])
+        for feature in json.loads(self.objects_file.read_text())["features"]:
+            self.assertTrue(any(tile_of(feature, zoom) == (zoom, x, y) for zoom, x, y in tiles.asked), feature)
+
+    def finds_colour(self, page, selector, colour):
+        """Waits for it: what is drawn follows the run."""
+        page.wait_for_function(f"(what) => ({FIND_COLOUR})(what) !== null", arg=[selector, colour])
+        return page.evaluate(FIND_COLOUR, [selector, colour])
+
+    def check_state(self, page):
+        page.wait_for_selector("#light-link:not(.bad)")
+        page.wait_for_selector("#light-video:not(.bad)")
+        page.wait_for_selector("#calibration tr:has-text('Latency'):has-text('±')")
+        page.wait_for_selector("#counters:has-text('Frames located')")
+        self.assertIn(HOSTILE_NAME, page.locator("#objects").inner_text())
+        self.assertEqual(page.locator("#objects img").count(), 0)
+
+    def check_screen(self, name, page, url):
+        """A click on an object shows its place; nothing sticks out; a picture is kept."""
+        page.bring_to_front()
+        page.locator("#fit").click()  # the map stands still from here on
+        page.wait_for_selector("#fit[aria-pressed=false]")
+        page.mouse.click(*self.finds_colour(page, "#map-canvas", "--object"))
+        page.wait_for_selector("#selected:not([hidden]) .place")
+        shown = page.locator("#selected .place dd").all_inner_texts()
+        chosen = int(re.match(r"\d+", page.locator("#selected h2").inner_text())[0])
+        with urllib.request.urlopen(f"{url}objects/{chosen}", timeout=PATIENCE_S) as answer:
+            coordinates = json.load(answer)["coordinates"]
+        self.assertEqual([text[:12] for text in shown], [text[:12] for text in coordinates.values()])
+        pointed = re.findall(r"-?\d+\.\d+", page.locator("#readout").inner_text())[:2]  # where the click was
+        for read, told in zip(pointed, coordinates["degrees"].split(", ")):
+            self.assertAlmostEqual(float(read), float(told), delta=2e-5)  # 2 m; a pixel is some decimetres
+        self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth - innerWidth"), 0)
+        page.locator("#fit").click()
+        SCREENSHOTS.mkdir(parents=True, exist_ok=True)
+        page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=name.startswith("phone"))
+
+    def check_copy(self, page):
+        page.bring_to_front()
+        page.locator("#selected .place button").first.click()
+        page.wait_for_selector("#selected button:has-text('Copied')")
+        copied = page.evaluate("navigator.clipboard.readText()")
+        self.assertRegex(copied, r"^-22\.\d{8}, -43\.\d{8}$")
+
+
+class Visitor:
+    """A client of the event stream that reads all of it, or nothing."""
+
+    def __init__(self, url, reads):
+        host, port = url.split("/")[2].split(":")
+        self._socket = socket.socket()
+        if not reads:
+            self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 2048)
+        self._socket.connect((host, int(port)))
+        self._socket.sendall(f"GET /events HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
+        self.received = 0
+        self._thread = threading.Thread(target=self._read if reads else lambda: None)
+        self._thread.start()
+
+    def _read(self):
+        while piece := self._socket.recv(65536):
+            self.received += len(piece)
+
+    def leave(self):
+        self._thread.join()
+        self._socket.close()
+
+
+class Visitors(AppTest):
+    """Whoever looks, and however: the results are the same, and the program ends when it is told to."""
+
+    def test_fifty_pages_change_no_byte_and_delay_no_end(self):
+        recording = self.make_recording()
+        alone, watched = self.folder / "alone.geojson", self.folder / "watched.geojson"
+        self.assertEqual(run("geoloc_replay", recording, "--out", alone).status, 0)
+        with Live("geoloc_replay", recording, "--out", watched, "--http", "0", "--speed", "10") as replay:
+            url = url_of(replay)
+            visitors = [Visitor(url, reads=i % 10 != 0) for i in range(50)]
+            replay.wait_for("the page stays at")
+            self.assertEqual(alone.read_bytes(), watched.read_bytes())
+            self.assertEqual(replay.interrupt(), 0)
+        for visitor in visitors:
+            visitor.leave()
+        self.assertTrue(all(visitor.received > 1000 for i, visitor in enumerate(visitors) if i % 10 != 0))
+
+    def test_ctrl_c_ends_a_replay_that_is_played(self):
+        recording = self.make_recording()
+        objects = self.folder / "objects.geojson"
+        with Live("geoloc_replay", recording, "--out", objects, "--http", "0") as replay:
+            url_of(replay)
+            self.assertEqual(replay.interrupt(), 0)
+        self.assertEqual(json.loads(objects.read_text())["type"], "FeatureCollection")
+
+    def test_what_is_no_place_for_a_page_is_refused(self):
+        recording = self.make_recording()
+        for endpoint in "port", "1.2.3.4:80", ":80", "127.0.0.1:99999":
+            self.assert_refused(run("geoloc_replay", recording, "--http", endpoint), "--http", endpoint)
+
+
+if __name__ == "__main__":
+    unittest.main()
