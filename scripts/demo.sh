@@ -50,7 +50,7 @@ for _ in $(seq 100); do [ -s "$out/truth.geojson" ] && break; kill -0 "$sim" 2>/
 
 "$bin/geoloc_app" --udp "127.0.0.1:$udp_port" --rtsp "rtsp://127.0.0.1:$rtsp_port/cam" "${method[@]}" \
   --truth "$out/truth.geojson" --out "$out/objects.geojson" --raw "$out/raw.csv" --picture "$out/picture.svg" \
-  --record "$out/recording" 2> >(tee "$out/app.log" >&2) &
+  --record "$out/recording" --http 0 2> >(tee "$out/app.log" >&2) &
 app=$!
 
 sim_status=0
