@@ -7,6 +7,7 @@ import re
 import shutil
 import socket
 import threading
+import time
 import unittest
 import urllib.request
 
@@ -185,11 +186,7 @@ class LivePage(AppTest):
         page.wait_for_selector("#fit[aria-pressed=false]")
         page.mouse.click(*self.finds_colour(page, "#map-canvas", "--object"))
         page.wait_for_selector("#selected:not([hidden]) .place")
-        shown = page.locator("#selected .place dd").all_inner_texts()
-        chosen = int(re.match(r"\d+", page.locator("#selected h2").inner_text())[0])
-        with urllib.request.urlopen(f"{url}objects/{chosen}", timeout=PATIENCE_S) as answer:
-            coordinates = json.load(answer)["coordinates"]
-        self.assertEqual([text[:12] for text in shown], [text[:12] for text in coordinates.values()])
+        coordinates = self.wait_for_coordinates(page, url)
         pointed = re.findall(r"-?\d+\.\d+", page.locator("#readout").inner_text())[:2]  # where the click was
         for read, told in zip(pointed, coordinates["degrees"].split(", ")):
             self.assertAlmostEqual(float(read), float(told), delta=2e-5)  # 2 m; a pixel is some decimetres
@@ -197,6 +194,19 @@ class LivePage(AppTest):
         page.locator("#fit").click()
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=name.startswith("phone"))
+
+    def wait_for_coordinates(self, page, url):
+        """What the server says of the selected object, once the page shows the same: both follow the run."""
+        chosen = int(re.match(r"\d+", page.locator("#selected h2").inner_text())[0])
+        deadline = time.monotonic() + PATIENCE_S
+        while True:
+            with urllib.request.urlopen(f"{url}objects/{chosen}", timeout=PATIENCE_S) as answer:
+                coordinates = json.load(answer)["coordinates"]
+            shown = page.locator("#selected .place dd").all_inner_texts()
+            if shown == list(coordinates.values()):
+                return coordinates
+            self.assertLess(time.monotonic(), deadline, f"{shown} is not {coordinates}")
+            page.wait_for_timeout(100)
 
     def check_copy(self, page):
         page.bring_to_front()
