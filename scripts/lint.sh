@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # scripts/lint.sh [FILE.cpp…]: formatting (clang-format) of all our sources, and static analysis (clang-tidy) of the files given,
 # or of every file that build/release compiles: library, programs, examples, tests and benchmarks, with the headers of ours
-# they include. Only most fuzz targets, the installation test's consumer and apps/sim/no_live_mode.cpp are outside. Needs
-# build/release configured: scripts/test.sh does that. Five minutes on two idle cores.
+# they include. Only most fuzz targets, the installation test's consumer, apps/sim/no_live_mode.cpp and
+# src/io/live_page/no_http_server.cpp are outside. Needs build/release configured: scripts/test.sh does that. Five minutes on
+# two idle cores.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"

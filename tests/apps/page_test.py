@@ -7,6 +7,7 @@ import re
 import shutil
 import socket
 import threading
+import time
 import unittest
 import urllib.request
 
@@ -57,6 +58,10 @@ IS_TAINTED = """() => {
     return true;
   }
 }"""
+
+
+FOUR_NOTATIONS = (r"^-?\d+\.\d{8}, -?\d+\.\d{8} \| \d+°\d\d′\d\d\.\d{3}″[NS] \d+°\d\d′\d\d\.\d{3}″[EW] "
+                  r"\| 23K \d+\.\d\d E \d+\.\d\d N \| 23KPQ\d{10}$")
 
 
 def tile_of(feature, zoom):
@@ -185,11 +190,7 @@ class LivePage(AppTest):
         page.wait_for_selector("#fit[aria-pressed=false]")
         page.mouse.click(*self.finds_colour(page, "#map-canvas", "--object"))
         page.wait_for_selector("#selected:not([hidden]) .place")
-        shown = page.locator("#selected .place dd").all_inner_texts()
-        chosen = int(re.match(r"\d+", page.locator("#selected h2").inner_text())[0])
-        with urllib.request.urlopen(f"{url}objects/{chosen}", timeout=PATIENCE_S) as answer:
-            coordinates = json.load(answer)["coordinates"]
-        self.assertEqual([text[:12] for text in shown], [text[:12] for text in coordinates.values()])
+        coordinates = self.wait_for_coordinates(page, url)
         pointed = re.findall(r"-?\d+\.\d+", page.locator("#readout").inner_text())[:2]  # where the click was
         for read, told in zip(pointed, coordinates["degrees"].split(", ")):
             self.assertAlmostEqual(float(read), float(told), delta=2e-5)  # 2 m; a pixel is some decimetres
@@ -197,6 +198,21 @@ class LivePage(AppTest):
         page.locator("#fit").click()
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=name.startswith("phone"))
+
+    def wait_for_coordinates(self, page, url):
+        """What the server says of the selected object, once the page shows the same: both follow the run."""
+        chosen = int(re.match(r"\d+", page.locator("#selected h2").inner_text())[0])
+        deadline = time.monotonic() + PATIENCE_S
+        while True:
+            with urllib.request.urlopen(f"{url}objects/{chosen}", timeout=PATIENCE_S) as answer:
+                coordinates = json.load(answer)["coordinates"]
+            shown = page.locator("#selected .place dd").all_inner_texts()
+            self.assertRegex(" | ".join(shown), FOUR_NOTATIONS)
+            places = [list(map(float, text.split(", "))) for text in (shown[0], coordinates["degrees"])]
+            if math.dist(*places) < 1e-7:  # a centimetre: the page is not told of less than a millimetre
+                return coordinates
+            self.assertLess(time.monotonic(), deadline, f"{shown} is not {coordinates}")
+            page.wait_for_timeout(100)
 
     def check_copy(self, page):
         page.bring_to_front()
