@@ -26,17 +26,12 @@ def name_of(size: tuple[float, float]) -> str:
     return f"{size[0]:.0f} px and up" if np.isinf(size[1]) else f"{size[0]:.0f} to {size[1]:.0f} px"
 
 
-def f_score(recall: np.ndarray, precision: np.ndarray, beta: float) -> np.ndarray:
-    return (1.0 + beta**2) * precision * recall / np.maximum(beta**2 * precision + recall, 1e-9)
-
-
 def choose_threshold(found: list[Found], examples: list[Example]) -> float:
-    """Half way between the best F1 and the best F0.5 of the larger targets: a miss is made good by the next frame, a
-    look-alike is not."""
+    """Where F0.5 of the larger targets is highest: a miss is made good by the next frame, a look-alike is not."""
     larger = curve(found, examples, SIZES_PX[-1])
     recall, precision = np.array([larger.at(threshold) for threshold in THRESHOLDS]).T
-    best = [THRESHOLDS[int(np.argmax(f_score(recall, precision, beta)))] for beta in (1.0, 0.5)]
-    return round(float(np.mean(best)), 3)
+    score = 1.25 * precision * recall / np.maximum(0.25 * precision + recall, 1e-9)
+    return round(float(THRESHOLDS[int(np.argmax(score))]), 2)
 
 
 def quality_table(found: list[Found], examples: list[Example], thresholds: list[float]) -> list[str]:

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <opencv2/core.hpp>
+#include <ostream>
 #include <random>
 
 #include "geoloc/io/detection/tiled_detector.hpp"
@@ -25,6 +26,10 @@ struct Grid {
   ImageSize picture;
   int columns, rows, overlap_px;
 };
+
+void PrintTo(const Grid& grid, std::ostream* out) {
+  *out << grid.name;
+}
 
 class Tiles : public ::testing::TestWithParam<Grid> {};
 
