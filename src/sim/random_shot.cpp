@@ -11,8 +11,8 @@
 namespace geoloc::sim {
 namespace {
 
-constexpr double kLeastSpacing_m = 1.0;  // between targets: two squares of 0.8 m hardly overlap
-constexpr double kFarthest_m = 110.0;    // a target is 8 px wide there
+constexpr double kLeastSpacing_m = 1.0;      // between targets: two squares of 0.8 m hardly overlap
+constexpr double kFarthestTarget_m = 110.0;  // a target is 8 px wide there
 
 constexpr std::array kHeldBackStyles{GroundStyle::kPavingStones, GroundStyle::kCrackedMud,
                                      GroundStyle::kMeadow, GroundStyle::kRock};
@@ -71,7 +71,7 @@ std::optional<Eigen::Vector2d> random_place(const CameraModel& camera, const Rig
                                             Random& random) {
   const Eigen::Vector2d pixel(random.uniform(-20.0, 1300.0), random.uniform(-20.0, 740.0));
   const auto place = ground_point(camera, enu_from_camera, pixel);
-  if (!place || (*place - enu_from_camera.translation).norm() > kFarthest_m) return std::nullopt;
+  if (!place || (*place - enu_from_camera.translation).norm() > kFarthestTarget_m) return std::nullopt;
   return place->head<2>();
 }
 
