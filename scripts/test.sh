@@ -26,6 +26,7 @@ source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 install_consumers
 [ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers see a build with OpenCV alone
+export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # what was compiled in one clone serves the next
 say "Configuring ($preset)"
 cmake --preset "$preset" "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 say "Building ($preset)"
