@@ -54,6 +54,7 @@ TEST(LargePicture, ShowsTargetsOf20PxInItsTilesAndNotAsAWhole) {
   const LargePicture picture = make_large_picture();
   ASSERT_EQ(picture.targets.size(), 5U);
   DetectionConfig config;
+  config.confidence = 0.45;  // the model is unsure of small targets (docs/model.md)
   EXPECT_LT(found(picture, config), 5U);
   config.tile_columns = 3;
   config.tile_rows = 3;
