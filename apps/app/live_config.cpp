@@ -34,6 +34,14 @@ void visit_fields(Visitor& v, VideoConfig& video) {
 }
 
 template <class Visitor>
+void visit_fields(Visitor& v, SecondLookConfig& second_look) {
+  v.field(
+      "confidence", second_look.confidence,
+      "of the first look, from which on boxes are looked at once more, by models that have a network for it");
+  v.field("max_boxes", second_look.max_boxes, "in a picture, the most confident ones");
+}
+
+template <class Visitor>
 void visit_fields(Visitor& v, DetectionConfig& detection) {
   v.field("confidence", detection.confidence, "boxes with a lower score are dropped");
   v.field("nms_iou", detection.nms_iou,
@@ -49,6 +57,7 @@ void visit_fields(Visitor& v, DetectionConfig& detection) {
   v.field("tile_rows", detection.tile_rows, "likewise, one below the other");
   v.field("tile_overlap_px", detection.tile_overlap_px,
           "px of the picture, of neighbouring tiles: at least the longest object that is small");
+  v.section("second_look", detection.second_look);
 }
 
 }  // namespace geoloc::io

@@ -15,6 +15,12 @@ void add_detector_options(CLI::App& program, DetectorOptions& options) {
                   "A class name a line; default: those in the model")
       ->type_name("FILE");
   program
+      .add_option(
+          "--second-look", options.second_look_file,
+          "Network that looks again at each box of the detector, ONNX, or none; default: the one that "
+          "the model names")
+      ->type_name("FILE");
+  program
       .add_option("--backend", options.backend, "What runs the model; default: opencv, or detection.backend")
       ->type_name("NAME")
       ->check(CLI::IsMember({"opencv", "openvino"}));
@@ -25,6 +31,9 @@ io::DetectorFiles detector_files(const DetectorOptions& options) {
   files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
                                            : std::filesystem::path(options.model_file);
   if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
+  if (options.second_look_file == "none") files.second_look = std::filesystem::path{};
+  if (!options.second_look_file.empty() && options.second_look_file != "none")
+    files.second_look = options.second_look_file;
   return files;
 }
 

@@ -14,10 +14,11 @@ namespace geoloc::apps {
 struct DetectorOptions {
   std::string model_file;
   std::string class_names_file;
+  std::string second_look_file;  ///< "none": without
   std::string backend;
 };
 
-/// --model, --class-names, --backend.
+/// --model, --class-names, --second-look, --backend.
 void add_detector_options(CLI::App& program, DetectorOptions& options);
 
 /// The model named, or the one that comes with geoloc. Throws std::runtime_error where that is not found.

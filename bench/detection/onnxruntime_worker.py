@@ -1,27 +1,49 @@
 # SPDX-License-Identifier: Apache-2.0
 """onnxruntime_worker.py MODEL THREADS PICTURE: the same question as detection_worker's, answered with ONNX Runtime's Python
-package and what a Python programmer puts around it: OpenCV's resize, blobFromImage and NMSBoxes, and numpy."""
+package and what a Python programmer puts around it: OpenCV's resize, blobFromImage and NMSBoxes, and numpy; the second look,
+where the model names one, likewise."""
 
 import sys
 import time
+from pathlib import Path
 
 import cv2
 import numpy as np
 import onnxruntime
 
-CONFIDENCE, OVERLAP = 0.55, 0.5  # geoloc's defaults
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/train"))
+from patches import boxes_of, cut, normalised, resized, squares_around  # noqa: E402
+
+CONFIDENCE, OVERLAP = 0.6, 0.5  # geoloc's defaults
+PROPOSED, MOST_PROPOSED = 0.1, 40  # likewise, of models with a second look
+
+
+def suppressed(boxes: np.ndarray, scores: np.ndarray, classes: np.ndarray, confidence: float) -> np.ndarray:
+    """Which of the boxes (centre x, y, width, height) stay, best first."""
+    corners = np.column_stack((boxes[:, :2] - boxes[:, 2:] / 2, boxes[:, 2:]))
+    return np.array(cv2.dnn.NMSBoxesBatched(corners, scores, classes, confidence, OVERLAP), int)
 
 
 class Detector:
     def __init__(self, model: str, threads: int):
-        options = onnxruntime.SessionOptions()
-        options.intra_op_num_threads = threads
-        self.session = onnxruntime.InferenceSession(model, options, providers=["CPUExecutionProvider"])
+        self.options = onnxruntime.SessionOptions()
+        self.options.intra_op_num_threads = threads
+        self.session = self.open(model)
         self.input = self.session.get_inputs()[0]
         self.canvas = np.full((*self.input.shape[2:], 3), 114, np.uint8)
+        second_look = self.session.get_modelmeta().custom_metadata_map.get("geoloc_second_look")
+        self.second_look = self.open(str(Path(model).with_name(second_look))) if second_look else None
+
+    def open(self, model: str) -> onnxruntime.InferenceSession:
+        return onnxruntime.InferenceSession(model, self.options, providers=["CPUExecutionProvider"])
 
     def detect(self, picture: np.ndarray) -> np.ndarray:
-        """Rows of left, top, width, height [px of the picture]."""
+        """Rows of centre x, y, width, height [px of the picture]."""
+        if self.second_look is None:
+            return self.look(picture, CONFIDENCE)
+        return self.look_again(picture, self.look(picture, PROPOSED)[:MOST_PROPOSED])
+
+    def look(self, picture: np.ndarray, confidence: float) -> np.ndarray:
         scale = min(self.canvas.shape[0] / picture.shape[0], self.canvas.shape[1] / picture.shape[1])
         height, width = (round(length * scale) for length in picture.shape[:2])
         top, left = (self.canvas.shape[0] - height) // 2, (self.canvas.shape[1] - width) // 2
@@ -29,11 +51,27 @@ class Detector:
         blob = cv2.dnn.blobFromImage(self.canvas, 1 / 255, swapRB=True)
         output = self.session.run(None, {self.input.name: blob})[0][0]
         scores = output[4:].max(0)
-        kept = np.flatnonzero(scores >= CONFIDENCE)
+        kept = np.flatnonzero(scores >= confidence)
         boxes, scores, classes = output[:4, kept].T, scores[kept], output[4:, kept].argmax(0)
-        boxes[:, :2] -= boxes[:, 2:] / 2
-        kept = np.array(cv2.dnn.NMSBoxesBatched(boxes, scores, classes, CONFIDENCE, OVERLAP), int)
-        return (boxes[kept] - [left, top, 0, 0]) / scale
+        boxes = boxes[suppressed(boxes, scores, classes, confidence)]
+        return (boxes - [left, top, 0, 0]) / scale
+
+    def look_again(self, picture: np.ndarray, boxes: np.ndarray) -> np.ndarray:
+        patches = self.second_look.get_inputs()[0]
+        squares = squares_around(boxes, picture)
+        found = []
+        for begin in range(0, len(squares), patches.shape[0]):
+            part = squares[begin : begin + patches.shape[0]]
+            pixels = np.zeros(patches.shape, np.float32)
+            for index, square in enumerate(part):
+                pixels[index] = normalised(resized(cut(picture, square))[:, :, ::-1])
+            answers = self.second_look.run(None, {patches.name: pixels})[0][: len(part)]
+            found.append(np.column_stack((boxes_of(answers[:, 1:5], part), answers[:, 0])))
+        if not found:
+            return boxes
+        rows = np.concatenate(found)
+        rows = rows[rows[:, 4] >= CONFIDENCE]
+        return rows[suppressed(rows[:, :4], rows[:, 4], np.zeros(len(rows), int), CONFIDENCE), :4]
 
 
 def main() -> None:

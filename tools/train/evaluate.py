@@ -11,9 +11,9 @@ from tqdm import tqdm
 
 import figures
 from dataset import Example, load
-from matching import Found, match
+from matching import Detector, Found, detect, detect_twice, match
 from measures import SIZES_PX, WHOLE, CentreErrors, centre_errors, curve, demanded, fit_sigma
-from onnx_model import load_network
+from onnx_model import load_network, load_second_look
 
 THRESHOLDS = np.arange(0.30, 0.91, 0.05)
 TABLE_THRESHOLDS = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
@@ -83,11 +83,24 @@ def wrong_kinds(found: list[Found], examples: list[Example], threshold: float) -
     return ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items(), key=lambda item: -item[1]))
 
 
-def found_in(model: Path, examples: list[Example], name: str) -> list[Found]:
+def open_detector(model: Path, alone: bool) -> Detector:
+    """The model, and the one it names for a second look, which lies beside it."""
     network = load_network(model)
+    name = metadata(model).get("geoloc_second_look")
+    if alone or not name:
+        return lambda image: detect(network, image)
+    second_look = load_second_look(model.with_name(name))
+    return lambda image: detect_twice(network, second_look, image)
+
+
+def metadata(model: Path) -> dict[str, str]:
+    return {entry.key: entry.value for entry in onnx.load(str(model)).metadata_props}
+
+
+def found_in(detector: Detector, examples: list[Example], name: str) -> list[Found]:
     found = []
     for picture, example in enumerate(tqdm(examples, desc=name, unit="picture", mininterval=2.0)):
-        for one in match(network, [example]):
+        for one in match(detector, [example]):
             one.picture = picture
             found.append(one)
     return found
@@ -99,9 +112,11 @@ def main() -> None:
     arguments.add_argument("--validation", type=Path, required=True)
     arguments.add_argument("--held-back", type=Path, required=True)
     arguments.add_argument("--figures", type=Path, help="folder for the pictures")
+    arguments.add_argument("--alone", action="store_true", help="without the second look")
     options = arguments.parse_args()
+    detector = open_detector(options.model, options.alone)
     validation, held_back = load(options.validation), load(options.held_back)
-    found = found_in(options.model, validation, "validation")
+    found = found_in(detector, validation, "validation")
     threshold = choose_threshold(found, validation)
     print(f"confidence chosen on the validation set: {threshold:.2f}")
     print(
@@ -109,11 +124,10 @@ def main() -> None:
             *(fit_sigma(centre_errors(found, validation, threshold)) or (np.nan, np.nan))
         )
     )
-    stored = {entry.key: entry.value for entry in onnx.load(str(options.model)).metadata_props}
-    print(f"stored in the model: {stored.get('geoloc_centre_sigma_px', 'nothing')}\n")
+    print(f"stored in the model: {metadata(options.model).get('geoloc_centre_sigma_px', 'nothing')}\n")
     print("\n".join(quality_table(found, validation, [threshold])), "\n")
 
-    found = found_in(options.model, held_back, "held back")
+    found = found_in(detector, held_back, "held back")
     print("\n".join(quality_table(found, held_back, sorted({*TABLE_THRESHOLDS, threshold}))), "\n")
     print("\n".join(centre_table(centre_errors(found, held_back, threshold))), "\n")
     print("wrong boxes:", wrong_kinds(found, held_back, threshold))

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the detector as ONNX in YOLO11's output layout, with nothing in it that OpenCV 4.6 cannot run."""
+"""Writes the networks as ONNX, the detector in YOLO11's output layout, with nothing in them that OpenCV 4.6 cannot run."""
 
+import copy
+import math
 from pathlib import Path
 
 import onnx
@@ -9,12 +11,15 @@ from torch import nn
 
 from dataset import INPUT_HEIGHT, INPUT_WIDTH
 from model import TargetDetector, cells
+from patches import PATCH_PX
+from second_look_model import SecondLook
 
 OPSET = 12
+PATCHES_AT_ONCE = 8
 CLASS_NAMES = {0: "target"}
 
 
-class Exported(nn.Module):
+class ExportedDetector(nn.Module):
     """Images [1, 3, H, W] in 0..1 to [1, 5, N]: centre x, y, width, height in input pixels, score in 0..1."""
 
     def __init__(self, detector: TargetDetector):
@@ -30,6 +35,20 @@ class Exported(nn.Module):
         centre = self.centres + boxes[:, 0:2] * self.strides
         size = torch.exp(boxes[:, 2:4]) * self.strides
         return torch.cat((centre, size, scores.sigmoid()), 1)
+
+
+class ExportedSecondLook(nn.Module):
+    """Patches [B, 3, 48, 48] to [B, 6]: score in 0..1; off-centre x and y, width, height, sigma in sides of the patch."""
+
+    def __init__(self, model: SecondLook, sigma_factor: float):
+        super().__init__()
+        self.model = copy.deepcopy(model)
+        with torch.no_grad():
+            self.model.answer[-1].bias[5] += math.log(sigma_factor)
+
+    def forward(self, patches: torch.Tensor) -> torch.Tensor:
+        answers = self.model(patches)
+        return torch.cat((answers[:, 0:1].sigmoid(), answers[:, 1:3], torch.exp(answers[:, 3:6])), 1)
 
 
 def inline_identities(graph: onnx.GraphProto) -> None:
@@ -49,26 +68,39 @@ def add_metadata(model: onnx.ModelProto, entries: dict[str, str]) -> None:
         entry.key, entry.value = key, value
 
 
-def export(detector: TargetDetector, file: Path, centre_sigma_px: tuple[float, float] | None) -> None:
-    """centre_sigma_px: a, b of sigma = hypot(a, b * root of the box's area), an axis, in input pixels."""
-    exported = Exported(detector).eval()
-    images = torch.zeros(1, 3, INPUT_HEIGHT, INPUT_WIDTH)
+def write(module: nn.Module, example: torch.Tensor, names: tuple[str, str], file: Path, metadata: dict[str, str]) -> None:
+    """names: of the input and of the output."""
     part = file.with_suffix(".partial")
     torch.onnx.export(
-        exported,
-        images,
+        module.eval(),
+        example,
         str(part),
         opset_version=OPSET,
-        input_names=["images"],
-        output_names=["output0"],
+        input_names=[names[0]],
+        output_names=[names[1]],
         dynamo=False,
     )
     model = onnx.load(str(part))
     inline_identities(model.graph)
-    add_metadata(model, {"names": str(CLASS_NAMES)})
-    if centre_sigma_px:
-        sigma = ",".join(f"{value:.4f}" for value in centre_sigma_px)
-        add_metadata(model, {"geoloc_centre_sigma_px": sigma})
+    add_metadata(model, metadata)
     onnx.checker.check_model(model)
     onnx.save(model, str(part))
     part.replace(file)
+
+
+def export(detector: TargetDetector, file: Path, centre_sigma_px: tuple[float, float] | None) -> None:
+    """centre_sigma_px: a, b of sigma = hypot(a, b * root of the box's area), an axis, in input pixels."""
+    metadata = {"names": str(CLASS_NAMES), "geoloc_second_look": second_look_file(file).name}
+    if centre_sigma_px:
+        metadata["geoloc_centre_sigma_px"] = ",".join(f"{value:.4f}" for value in centre_sigma_px)
+    images = torch.zeros(1, 3, INPUT_HEIGHT, INPUT_WIDTH)
+    write(ExportedDetector(detector), images, ("images", "output0"), file, metadata)
+
+
+def second_look_file(detector: Path) -> Path:
+    return detector.with_name(f"{detector.stem}_second_look.onnx")
+
+
+def export_second_look(model: SecondLook, file: Path, sigma_factor: float) -> None:
+    patches = torch.zeros(PATCHES_AT_ONCE, 3, PATCH_PX, PATCH_PX)
+    write(ExportedSecondLook(model, sigma_factor), patches, ("patches", "answers"), file, {})

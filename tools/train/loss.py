@@ -4,10 +4,13 @@
 import torch
 from torch.nn import functional
 
+from crops import Role
+
 LARGE_PX = 32.0  # targets from here on belong to the stride-16 grid,
 OVERLAP = 1.3  # those within this factor of it to both
 REACH = 0.8  # predictors whose centre is this near the target's (in strides, either axis) answer for it
-SCORE_WEIGHT = 6.0  # telling targets from look-alikes is harder than boxing them
+SCORE_WEIGHT = 6.0
+LOOK_ALIKE_WEIGHT = 0.2  # of a cell on one: telling them from targets is the second look's work, missing none is this one's
 CENTRE_WEIGHT = 2.0  # geo-location uses the centre alone, so it is paid for once more, beside the overlap
 SIZE_WEIGHT = 0.5
 FOCUS = 1.5  # exponent: cells that are right already cost nearly nothing, which leaves the look-alikes
@@ -29,6 +32,8 @@ def assign(
 
 def covered(targets: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor) -> torch.Tensor:
     """Which cells [N] lie on any of the targets [K, 4]."""
+    if not len(targets):
+        return torch.zeros(len(strides), dtype=torch.bool)
     off = (centres.T[None] - targets[:, None, :2]).abs()  # [K, N, 2]
     return (off < 0.5 * targets[:, None, 2:] + 0.5 * strides[None, :, None]).all(2).any(0)
 
@@ -60,21 +65,22 @@ def box_loss(predicted: torch.Tensor, truth: torch.Tensor, overlap: torch.Tensor
 def detection_loss(
     decoded: torch.Tensor,  # [B, 4, N] centre and size [px]
     scores: torch.Tensor,  # [B, 1, N] logits
-    targets: list[torch.Tensor],  # B times [K, 4]
-    is_taught: list[torch.Tensor],  # B times [K]
+    boxes: list[torch.Tensor],  # B times [K, 4]
+    roles: list[torch.Tensor],  # B times [K]: Role of each box
     centres: torch.Tensor,
     strides: torch.Tensor,
 ) -> torch.Tensor:
     wanted, counts = torch.zeros_like(scores), torch.ones_like(scores)
     boxes_cost = decoded.new_zeros(())
     answers = 0
-    for index, (all_targets, taught) in enumerate(zip(targets, is_taught)):
-        if not taught.all():
-            counts[index, 0, covered(all_targets[~taught], centres, strides)] = 0.0
-        if not taught.any():
+    for index, (box, role) in enumerate(zip(boxes, roles)):
+        counts[index, 0, covered(box[role == Role.LOOK_ALIKE], centres, strides)] = LOOK_ALIKE_WEIGHT
+        counts[index, 0, covered(box[role == Role.UNDECIDED], centres, strides)] = 0.0
+        targets = box[role == Role.TARGET]
+        if not len(targets):
             continue
-        responsible, owner = assign(all_targets[taught], centres, strides)
-        predicted, truth = decoded[index, :, responsible].T, all_targets[taught][owner]
+        responsible, owner = assign(targets, centres, strides)
+        predicted, truth = decoded[index, :, responsible].T, targets[owner]
         overlap = intersection_over_union(corners(predicted), corners(truth))
         wanted[index, 0, responsible] = overlap.detach().sqrt()  # a good box scores near 1
         counts[index, 0, responsible] = 1.0

@@ -7,8 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from dataset import Example, letterbox
+from patches import boxes_of, cut, normalised, resized, squares_around
 
 LOWEST_CONFIDENCE = 0.05  # nothing below is looked at
+PROPOSED = 0.1  # confidence from which boxes are looked at again, as detection.second_look.confidence is by default
+MOST_PROPOSED = 40  # as detection.second_look.max_boxes
 SUPPRESS_OVERLAP = 0.5  # as detection.nms_iou is by default
 MATCH_OVERLAP = 0.5
 
@@ -22,6 +25,11 @@ class Network:
     run: Callable[[np.ndarray], np.ndarray]  # [height, width, 3] (RGB, 8 bits) to [5, N] in YOLO's layout
 
 
+SecondLook = Callable[[np.ndarray], np.ndarray]  # patches [K, 3, 48, 48] to answers [K, 6]
+Boxes = tuple[np.ndarray, np.ndarray, np.ndarray]  # [K, 4], confidences [K], sigma of the centre [K], NaN: not stated
+Detector = Callable[[np.ndarray], Boxes]
+
+
 @dataclass
 class Found:
     """One box."""
@@ -31,6 +39,7 @@ class Found:
     box: np.ndarray  # centre x, y, width, height [px of the picture]
     target: int  # of the picture, or -1
     counts: bool  # False: it matches a target that is neither demanded nor counted
+    sigma_px: float  # of the centre as the detector states it, an axis; NaN where it does not
 
     @property
     def side_px(self) -> float:
@@ -50,34 +59,64 @@ def candidates(output: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     sure = output[4] > LOWEST_CONFIDENCE
     order = np.argsort(-output[4, sure], kind="stable")
     boxes, scores = output[:4, sure].T[order], output[4, sure][order]
+    kept = suppressed(boxes)
+    return boxes[kept], scores[kept]
+
+
+def suppressed(boxes: np.ndarray) -> list[int]:
+    """Which of the boxes, best first, greedy non-maximum suppression keeps."""
     kept: list[int] = []
     for index, box in enumerate(boxes):
         if not kept or overlap(box, boxes[kept]).max() <= SUPPRESS_OVERLAP:
             kept.append(index)
-    return boxes[kept], scores[kept]
+    return kept
 
 
-def detect(network: Network, image: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def detect(network: Network, image: np.ndarray) -> Boxes:
     """The same in pixels of the picture; boxes may reach out of it."""
     boxed, scale, left, top = letterbox(image, network.width, network.height)
     boxes, scores = candidates(network.run(boxed))
-    return (boxes - np.float32([left, top, 0, 0])) / scale, scores
+    return (boxes - np.float32([left, top, 0, 0])) / scale, scores, np.full(len(scores), np.nan)
 
 
-def match(network: Network, examples: list[Example]) -> list[Found]:
+def clipped(boxes: np.ndarray, width: int, height: int) -> np.ndarray:
+    """What of boxes [K, 4] is in the picture, as the program tells it."""
+    low = np.clip(boxes[:, :2] - 0.5 * boxes[:, 2:], 0, (width, height))
+    high = np.clip(boxes[:, :2] + 0.5 * boxes[:, 2:], 0, (width, height))
+    return np.concatenate((0.5 * (low + high), high - low), 1)
+
+
+def detect_twice(network: Network, second_look: SecondLook, image: np.ndarray) -> Boxes:
+    """Boxes that the second look has moved, sized and judged, best first, and their confidences."""
+    height, width = image.shape[:2]
+    boxes, scores, _ = detect(network, image)
+    proposed = clipped(boxes[scores >= PROPOSED][:MOST_PROPOSED], width, height)
+    proposed = proposed[(proposed[:, 2:] > 0).all(1)]
+    squares = squares_around(proposed, image)
+    if not len(squares):
+        return proposed, np.empty(0), np.empty(0)
+    answers = second_look(np.stack([normalised(resized(cut(image, square))) for square in squares]))
+    order = np.argsort(-answers[:, 0], kind="stable")
+    boxes, scores = clipped(boxes_of(answers[:, 1:5], squares), width, height)[order], answers[order, 0]
+    kept = suppressed(boxes)
+    return boxes[kept], scores[kept], (answers[order, 5] * squares[order, 2])[kept]
+
+
+def match(detector: Detector, examples: list[Example]) -> list[Found]:
     found = []
     for picture, example in enumerate(examples):
         free = np.ones(len(example.targets), bool)
-        for box, confidence in zip(*detect(network, example.image)):
+        targets = clipped(example.targets, *example.image.shape[1::-1])
+        for box, confidence, sigma in zip(*detector(example.image)):
             target, counts = -1, True
-            overlaps = np.where(free, overlap(box, example.targets), 0.0)
+            overlaps = np.where(free, overlap(box, targets), 0.0)
             if len(overlaps) and overlaps.max() >= MATCH_OVERLAP:
                 target = int(overlaps.argmax())
                 free[target] = False
                 counts = bool(example.is_demanded[target])
             elif hidden(box, example):
                 counts = False
-            found.append(Found(picture, float(confidence), box, target, counts))
+            found.append(Found(picture, float(confidence), box, target, counts, float(sigma)))
     return found
 
 

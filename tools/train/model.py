@@ -45,7 +45,7 @@ class TargetDetector(nn.Module):
         super().__init__()
         fine, middle, coarse = 32, 48, 80  # channels at strides 8, 16, 32
         self.to_stride_8 = nn.Sequential(
-            convolution(3, 16, 4, 4), convolution(16, fine, 3, 2), Residual(fine)
+            convolution(3, 16, 4, 4), convolution(16, fine, 3, 2), Residual(fine), Residual(fine)
         )
         self.to_stride_16 = nn.Sequential(convolution(fine, middle, 3, 2), Residual(middle), Residual(middle))
         self.to_stride_32 = nn.Sequential(

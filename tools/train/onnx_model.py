@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""An exported detector in ONNX Runtime."""
+"""The exported networks in ONNX Runtime."""
 
 from pathlib import Path
 
 import numpy as np
 import onnxruntime
 
-from matching import Network
+from matching import Network, SecondLook
+
+
+def open_session(file: Path, threads: int) -> onnxruntime.InferenceSession:
+    options = onnxruntime.SessionOptions()
+    options.intra_op_num_threads = threads
+    return onnxruntime.InferenceSession(str(file), options, providers=["CPUExecutionProvider"])
 
 
 def load_network(file: Path, threads: int = 2) -> Network:
-    options = onnxruntime.SessionOptions()
-    options.intra_op_num_threads = threads
-    session = onnxruntime.InferenceSession(str(file), options, providers=["CPUExecutionProvider"])
+    session = open_session(file, threads)
     images = session.get_inputs()[0]
 
     def run(image: np.ndarray) -> np.ndarray:
@@ -20,3 +24,17 @@ def load_network(file: Path, threads: int = 2) -> Network:
         return session.run(None, {images.name: pixels})[0][0]
 
     return Network(images.shape[3], images.shape[2], run)
+
+
+def load_second_look(file: Path, threads: int = 2) -> SecondLook:
+    session = open_session(file, threads)
+    patches = session.get_inputs()[0]
+    at_once = patches.shape[0]
+
+    def run(all_patches: np.ndarray) -> np.ndarray:
+        filled = -len(all_patches) % at_once
+        padded = np.concatenate((all_patches, np.zeros((filled, *all_patches.shape[1:]), np.float32)))
+        parts = np.split(padded, len(padded) // at_once)
+        return np.concatenate([session.run(None, {patches.name: part})[0] for part in parts])[: len(all_patches)]
+
+    return run

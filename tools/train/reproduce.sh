@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # tools/train/reproduce.sh [OUT]: pictures, training and the figures of docs/model.md, from a checkout that is built
-# (build/release/bin/geoloc_sim exists). OUT (out/model) takes 16 GB. What exists there is kept: an interrupted run goes on.
+# (build/release/bin/geoloc_sim exists). OUT (out/model) takes 24 GB. What exists there is kept: an interrupted run goes on.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$ROOT"
@@ -12,14 +12,16 @@ mkdir -p "$OUT"
 pictures() { # name count seed grounds
   [ -d "$OUT/$1" ] || build/release/bin/geoloc_sim --images "$2" --seed "$3" --grounds "$4" --out "$OUT/$1"
 }
-pictures train_1 1300 1 train
-pictures train_2 1300 2 train
+for seed in 1 2 3 4; do pictures "train_$seed" 1300 "$seed" train; done
 pictures validation 160 501 train
 pictures held_back 300 9001 held-back
 
 export OMP_WAIT_POLICY=passive  # threads that spin while they wait take a busy machine's time from each other
 BFLOAT16=$(grep -qm1 avx512_bf16 /proc/cpuinfo && echo --bfloat16 || true)
-"$OUT/venv/bin/python" tools/train/train.py --train "$OUT/train_1" "$OUT/train_2" --validation "$OUT/validation" \
-  --out "$OUT/fiducial.onnx" $BFLOAT16
-"$OUT/venv/bin/python" tools/train/evaluate.py "$OUT/fiducial.onnx" --validation "$OUT/validation" \
-  --held-back "$OUT/held_back" --figures "$OUT/figures"
+python=$OUT/venv/bin/python
+taught=(--train "$OUT"/train_[1-4] --validation "$OUT/validation")
+[ -f "$OUT/fiducial.onnx" ] || "$python" tools/train/train.py "${taught[@]}" --out "$OUT/fiducial.onnx" $BFLOAT16
+[ -f "$OUT/fiducial_second_look.onnx" ] || "$python" tools/train/train_second_look.py "${taught[@]}" \
+  --detector "$OUT/fiducial.onnx" --out "$OUT/fiducial_second_look.onnx" $BFLOAT16
+"$python" tools/train/evaluate.py "$OUT/fiducial.onnx" --validation "$OUT/validation" --held-back "$OUT/held_back" \
+  --figures "$OUT/figures"

@@ -22,6 +22,10 @@ std::vector<std::string> DetectionConfig::problems() const {
   found.require(tile_rows >= 1 && tile_rows <= 32, "detection.tile_rows must lie in [1, 32]");
   found.require(tile_overlap_px >= 0 && tile_overlap_px <= 4096,
                 "detection.tile_overlap_px must lie in [0, 4096]");
+  found.require(second_look.confidence > 0 && second_look.confidence < 1,
+                "detection.second_look.confidence must lie in (0, 1)");
+  found.require(second_look.max_boxes >= 1 && second_look.max_boxes <= 1000,
+                "detection.second_look.max_boxes must lie in [1, 1000]");
   return found.take();
 }
 

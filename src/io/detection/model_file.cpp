@@ -10,6 +10,7 @@ namespace geoloc::io {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 2'000'000'000;  // protobuf's own limit is 2 GiB
+constexpr std::int64_t kLargestPatchLength = 256;       // patches in a batch, or the side of one in pixels
 
 std::vector<char> read_file(const std::filesystem::path& file) {
   std::error_code error;
@@ -53,6 +54,17 @@ ImageSize input_size(const std::filesystem::path& file, const OnnxMetadata& meta
                          "input_height_px (--input-size), or export again with dynamic=False");
 }
 
+ModelFile read_model_file(const std::filesystem::path& file) {
+  ModelFile model;
+  model.name = file;
+  model.bytes = read_file(file);
+  auto metadata =
+      read_onnx_metadata(reinterpret_cast<const std::uint8_t*>(model.bytes.data()), model.bytes.size());
+  if (!metadata) refuse_model(file, "is not an ONNX file, or is cut short: export with format=onnx");
+  model.metadata = std::move(*metadata);
+  return model;
+}
+
 }  // namespace
 
 [[noreturn]] void refuse_model(const std::filesystem::path& file, const std::string& fault) {
@@ -76,16 +88,29 @@ std::string one_line(std::string reason) {
   return reason;
 }
 
-ModelFile read_model_file(const std::filesystem::path& file, const DetectionConfig& config) {
-  ModelFile model;
-  model.name = file;
-  model.bytes = read_file(file);
-  auto metadata =
-      read_onnx_metadata(reinterpret_cast<const std::uint8_t*>(model.bytes.data()), model.bytes.size());
-  if (!metadata) refuse_model(file, "is not an ONNX file, or is cut short: export with format=onnx");
-  model.metadata = std::move(*metadata);
+ModelFile read_detector_file(const std::filesystem::path& file, const DetectionConfig& config) {
+  ModelFile model = read_model_file(file);
   model.input = input_size(file, model.metadata, config);
   return model;
+}
+
+ModelFile read_second_look_file(const std::filesystem::path& file) {
+  ModelFile model = read_model_file(file);
+  const auto& inputs = model.metadata.inputs;
+  const auto shape = inputs.size() == 1 ? inputs.front().shape : std::vector<std::int64_t>{};
+  const auto is_length = [](std::int64_t length) { return length >= 1 && length <= kLargestPatchLength; };
+  if (shape.size() != 4 || !is_length(shape[0]) || shape[1] != 3 || !is_length(shape[2]) ||
+      shape[2] != shape[3])
+    refuse_model(file,
+                 "its input is " + shape_text(shape) + "; that of a second look is [batch, 3, side, side]");
+  model.kind = InputKind::kNumbers;
+  model.batch = static_cast<int>(shape[0]);
+  model.input = {static_cast<int>(shape[3]), static_cast<int>(shape[2])};
+  return model;
+}
+
+OnnxMetadata read_model_metadata(const std::filesystem::path& file) {
+  return read_model_file(file).metadata;
 }
 
 std::vector<std::string> read_class_names(const std::filesystem::path& file) {

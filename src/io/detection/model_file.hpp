@@ -11,16 +11,30 @@
 
 namespace geoloc::io {
 
-/// An ONNX file that has the input of a detector.
+/// What a network is given.
+enum class InputKind {
+  kPicture,  ///< one, 8 bits, BGR; the back end makes it RGB in 0..1
+  kNumbers   ///< 32-bit floats, as they are
+};
+
+/// An ONNX file with one input of the shape [batch, 3, height, width].
 struct ModelFile {
   std::filesystem::path name;
   std::vector<char> bytes;
   OnnxMetadata metadata;
-  ImageSize input;  ///< of the network: the file's, or the configuration's where the file leaves it open
+  InputKind kind = InputKind::kPicture;
+  int batch = 1;
+  ImageSize input;  ///< the file's, or the configuration's where the file leaves it open
 };
 
-/// Throws std::runtime_error naming the file, the fault and the remedy.
-ModelFile read_model_file(const std::filesystem::path& file, const DetectionConfig& config);
+/// Of a detector. Each throws std::runtime_error naming the file, the fault and the remedy.
+ModelFile read_detector_file(const std::filesystem::path& file, const DetectionConfig& config);
+
+/// Of a network for second looks: it takes square patches, several at once.
+ModelFile read_second_look_file(const std::filesystem::path& file);
+
+/// Its metadata alone.
+OnnxMetadata read_model_metadata(const std::filesystem::path& file);
 
 /// A name a line. Throws std::runtime_error naming the file where it cannot be read or names no class.
 std::vector<std::string> read_class_names(const std::filesystem::path& file);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "patch.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -33,21 +35,20 @@ void check_shape(const ModelFile& model, const std::vector<std::int64_t>& shape,
   network.candidates = static_cast<int>(shape[2]);
 }
 
-/// A look at plain grey. What it finds there does not matter, but it must be numbers.
-void try_out(const ModelFile& model, DetectionNetwork& network) {
-  const cv::Mat grey{model.input.height_px, model.input.width_px, CV_8UC3, kLetterboxGrey};
-  const cv::Mat output = network.network->run(grey);
-  check_shape(model, {output.size.p, output.size.p + output.dims}, network);
+/// The shape of what it makes of nothing in particular. What that is does not matter, but it must be numbers.
+std::vector<std::int64_t> try_out(const ModelFile& model, Network& network) {
+  const cv::Mat output = network.run(plain_input(model));
   const auto* values = output.ptr<float>();
   if (!std::all_of(values, values + output.total(), [](float value) { return std::isfinite(value); }))
     refuse_model(model.name,
                  "what it makes of a grey picture are no numbers (NaN or infinity): export again");
+  return {output.size.p, output.size.p + output.dims};
 }
 
 }  // namespace
 
 DetectionNetwork load_network(const std::filesystem::path& file, const DetectionConfig& config) {
-  const ModelFile model = read_model_file(file, config);
+  const ModelFile model = read_detector_file(file, config);
   if (model.metadata.outputs.size() != 1) {
     refuse_model(file, "has " + std::to_string(model.metadata.outputs.size()) +
                            " outputs; a detector has one (segmentation is not supported)");
@@ -64,8 +65,26 @@ DetectionNetwork load_network(const std::filesystem::path& file, const Detection
                              " is not \"a,b\", two numbers of which a > 0 and b >= 0");
   }
   network.network = load(model, config);
-  try_out(model, network);
+  check_shape(model, try_out(model, *network.network), network);
   return network;
+}
+
+SecondLookNetwork load_second_look(const std::filesystem::path& file, const DetectionConfig& config) {
+  const ModelFile model = read_second_look_file(file);
+  SecondLookNetwork network{load(model, config), model.batch, model.input.width_px};
+  const auto shape = try_out(model, *network.network);
+  const std::vector<std::int64_t> wanted{model.batch, SecondLookAnswer::kValues};
+  if (shape != wanted)
+    refuse_model(file,
+                 "its output is " + shape_text(shape) + "; that of a second look is " + shape_text(wanted));
+  return network;
+}
+
+cv::Mat plain_input(const ModelFile& model) {
+  if (model.kind == InputKind::kPicture)
+    return {model.input.height_px, model.input.width_px, CV_8UC3, kLetterboxGrey};
+  return {std::vector<int>{model.batch, 3, model.input.height_px, model.input.width_px}, CV_32F,
+          cv::Scalar::all(0)};
 }
 
 }  // namespace geoloc::io

@@ -23,9 +23,10 @@ class Network {
  public:
   virtual ~Network() = default;
 
-  /// `bgr`: 8 bits, 3 channels, of the size of the network's input. The output, 32-bit floats, stays valid
-  /// until the next call. Throws std::exception where the back end fails.
-  virtual cv::Mat run(const cv::Mat& bgr) = 0;
+  /// `input`: of the model's InputKind and of the size of its input; numbers as [batch, 3, height, width].
+  /// The output, 32-bit floats, stays valid until the next call. Throws std::exception where the back end
+  /// fails.
+  virtual cv::Mat run(const cv::Mat& input) = 0;
 
  protected:
   Network() = default;
@@ -49,5 +50,17 @@ struct DetectionNetwork {
 
 /// Throws std::runtime_error naming the file, the fault and the remedy.
 DetectionNetwork load_network(const std::filesystem::path& file, const DetectionConfig& config);
+
+/// A network for second looks (second_look.hpp), likewise.
+struct SecondLookNetwork {
+  std::unique_ptr<Network> network;
+  int batch = 0;     ///< patches it takes at once
+  int patch_px = 0;  ///< side of a patch
+};
+
+SecondLookNetwork load_second_look(const std::filesystem::path& file, const DetectionConfig& config);
+
+/// What a model may be tried with before there is a picture: plain grey, or zeros.
+cv::Mat plain_input(const ModelFile& model);
 
 }  // namespace geoloc::io

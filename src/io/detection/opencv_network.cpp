@@ -46,18 +46,20 @@ void check_splits(const ModelFile& model) {
 class OpencvNetwork final : public Network {
  public:
   explicit OpencvNetwork(const ModelFile& model)
-      : net_(cv::dnn::readNetFromONNX(model.bytes.data(), model.bytes.size())) {}
+      : net_(cv::dnn::readNetFromONNX(model.bytes.data(), model.bytes.size())), kind_(model.kind) {}
 
-  cv::Mat run(const cv::Mat& bgr) override {
+  cv::Mat run(const cv::Mat& input) override {
     constexpr bool kSwapRedAndBlue = true;
-    cv::dnn::blobFromImage(bgr, input_, 1.0 / 255.0, {}, {}, kSwapRedAndBlue);
-    net_.setInput(input_);
+    if (kind_ == InputKind::kPicture)
+      cv::dnn::blobFromImage(input, numbers_, 1.0 / 255.0, {}, {}, kSwapRedAndBlue);
+    net_.setInput(kind_ == InputKind::kPicture ? numbers_ : input);
     return net_.forward();
   }
 
  private:
   cv::dnn::Net net_;
-  cv::Mat input_;
+  InputKind kind_;
+  cv::Mat numbers_;  // of the picture
 };
 
 }  // namespace
@@ -69,7 +71,7 @@ std::unique_ptr<Network> load_with_opencv(const ModelFile& model) {
   try {
     auto network = std::make_unique<OpencvNetwork>(model);
     action = "run";
-    network->run(cv::Mat{model.input.height_px, model.input.width_px, CV_8UC3, kLetterboxGrey});
+    network->run(plain_input(model));
     return network;
   } catch (const cv::Exception& error) {
     fail(model, action, error.err);

@@ -11,10 +11,7 @@
 namespace geoloc::io {
 namespace {
 
-/// The model between 8-bit BGR pictures and 32-bit floats, whatever its own types.
-std::shared_ptr<ov::Model> with_pictures(const std::shared_ptr<ov::Model>& model, ImageSize input) {
-  model->reshape(ov::PartialShape{1, 3, input.height_px, input.width_px});
-  ov::preprocess::PrePostProcessor steps(model);
+void take_pictures(ov::preprocess::PrePostProcessor& steps) {
   steps.input()
       .tensor()
       .set_element_type(ov::element::u8)
@@ -26,6 +23,14 @@ std::shared_ptr<ov::Model> with_pictures(const std::shared_ptr<ov::Model>& model
       .convert_element_type(ov::element::f32)
       .scale(255.0F);
   steps.input().model().set_layout("NCHW");
+}
+
+/// The model between what the file's InputKind says and 32-bit floats, whatever its own types.
+std::shared_ptr<ov::Model> with_input_of(const ModelFile& file, const std::shared_ptr<ov::Model>& model) {
+  model->reshape(ov::PartialShape{file.batch, 3, file.input.height_px, file.input.width_px});
+  ov::preprocess::PrePostProcessor steps(model);
+  if (file.kind == InputKind::kPicture) take_pictures(steps);
+  if (file.kind == InputKind::kNumbers) steps.input().tensor().set_element_type(ov::element::f32);
   steps.output().tensor().set_element_type(ov::element::f32);
   return steps.build();
 }
@@ -41,16 +46,15 @@ ov::AnyMap settings_for(int threads) {
 
 class OpenvinoNetwork final : public Network {
  public:
-  OpenvinoNetwork(const ModelFile& file, int threads) {
+  OpenvinoNetwork(const ModelFile& file, int threads) : kind_(file.kind) {
     const auto model = core_.read_model(std::string{file.bytes.begin(), file.bytes.end()}, ov::Tensor{});
-    request_ = core_.compile_model(with_pictures(model, file.input), "CPU", settings_for(threads))
-                   .create_infer_request();
+    request_ =
+        core_.compile_model(with_input_of(file, model), "CPU", settings_for(threads)).create_infer_request();
   }
 
-  cv::Mat run(const cv::Mat& bgr) override {
-    const auto rows = static_cast<std::size_t>(bgr.rows), columns = static_cast<std::size_t>(bgr.cols);
-    const cv::Mat whole = bgr.isContinuous() ? bgr : bgr.clone();
-    request_.set_input_tensor(ov::Tensor{ov::element::u8, {1, rows, columns, 3}, whole.data});
+  cv::Mat run(const cv::Mat& input) override {
+    const cv::Mat whole = input.isContinuous() ? input : input.clone();
+    request_.set_input_tensor(tensor_of(whole));
     request_.infer();
     ov::Tensor output = request_.get_output_tensor();
     std::vector<int> shape;
@@ -59,6 +63,15 @@ class OpenvinoNetwork final : public Network {
   }
 
  private:
+  /// Of the input's own memory.
+  ov::Tensor tensor_of(const cv::Mat& input) const {
+    if (kind_ == InputKind::kNumbers)
+      return {ov::element::f32, ov::Shape{input.size.p, input.size.p + input.dims}, input.data};
+    const auto rows = static_cast<std::size_t>(input.rows), columns = static_cast<std::size_t>(input.cols);
+    return {ov::element::u8, {1, rows, columns, 3}, input.data};
+  }
+
+  InputKind kind_;
   ov::Core core_;
   ov::InferRequest request_;
 };

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <optional>
 
+#include "boxes.hpp"
+
 namespace geoloc::io {
 namespace {
 
-/// Suppression compares pairs, so a network gone wrong must not give it tens of thousands of boxes.
-constexpr std::size_t kMaxCandidates = 2000;
 /// Rounding in a network may lift a sigmoid over 1 by this much.
 constexpr double kScoreTolerance = 1e-3;
 
@@ -77,44 +77,12 @@ DecodedBoxes confident_boxes(const YoloOutput& output, double threshold) {
   return found;
 }
 
-/// Greedy: from the most confident box on, each one stays that does not overlap one that stayed.
-std::vector<Detection> suppress_overlaps(std::vector<Detection> boxes, const DetectionConfig& config) {
-  std::stable_sort(boxes.begin(), boxes.end(),
-                   [](const Detection& a, const Detection& b) { return a.confidence > b.confidence; });
-  if (boxes.size() > kMaxCandidates) boxes.resize(kMaxCandidates);
-  std::vector<Detection> kept;
-  for (const Detection& box : boxes) {
-    if (kept.size() >= static_cast<std::size_t>(config.max_detections)) break;
-    const bool overlaps = std::any_of(kept.begin(), kept.end(), [&](const Detection& other) {
-      return other.class_id == box.class_id && intersection_over_union(other.box, box.box) > config.nms_iou;
-    });
-    if (!overlaps) kept.push_back(box);
-  }
-  return kept;
-}
-
-/// nullopt where nothing of it is inside.
-std::optional<Box> clipped(const Box& box, ImageSize picture) {
-  const double left = std::clamp(box.x, 0.0, static_cast<double>(picture.width_px));
-  const double right = std::clamp(box.x + box.width, 0.0, static_cast<double>(picture.width_px));
-  const double top = std::clamp(box.y, 0.0, static_cast<double>(picture.height_px));
-  const double bottom = std::clamp(box.y + box.height, 0.0, static_cast<double>(picture.height_px));
-  if (!(right > left && bottom > top)) return std::nullopt;
-  return Box{left, top, right - left, bottom - top};
-}
-
-bool is_inside(const Box& box, ImageSize picture) {
-  return box.x >= 0.0 && box.y >= 0.0 && box.x + box.width <= picture.width_px &&
-         box.y + box.height <= picture.height_px;
-}
-
-/// In the picture; a box that is cut off has another centre than the object, so nothing is stated of it.
+/// In the picture.
 double sigma_px(const Box& in_input, const Box& in_picture, ImageSize picture, const CentreSigma& sigma) {
-  if (!is_inside(in_picture, picture)) return 0.0;
   const double size_px = std::sqrt(in_input.width * in_input.height);
   const double picture_per_input = std::sqrt(in_picture.width * in_picture.height) / size_px;
-  const double stated = std::hypot(sigma.constant_px, sigma.of_size * size_px) * picture_per_input;
-  return std::isfinite(stated) ? std::clamp(stated, kSmallestSigma_px, kLargestSigma_px) : 0.0;
+  const double in_picture_px = std::hypot(sigma.constant_px, sigma.of_size * size_px) * picture_per_input;
+  return stated_sigma_px(in_picture_px, in_picture, picture);
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
-#include "geoloc/io/detection/tiled_detector.hpp"
 #include "geoloc/io/detection/yolo_decode.hpp"
 #include "network.hpp"
+#include "picture.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -62,16 +62,6 @@ class YoloDetector::Impl {
   ImageSize input_size() const { return network_.input; }
 
  private:
-  /// Empty where it is no such picture as Detector::detect() takes.
-  static cv::Mat as_bgr(const cv::Mat& picture) {
-    if (picture.dims != 2 || picture.empty() || picture.depth() != CV_8U) return {};
-    cv::Mat bgr;
-    if (picture.channels() == 3) return picture;
-    if (picture.channels() == 1) cv::cvtColor(picture, bgr, cv::COLOR_GRAY2BGR);
-    if (picture.channels() == 4) cv::cvtColor(picture, bgr, cv::COLOR_BGRA2BGR);
-    return bgr;
-  }
-
   std::vector<Detection> detect_in_bgr(const cv::Mat& bgr) {
     const ImageSize size{bgr.cols, bgr.rows};
     const Letterbox letterbox = fit_letterbox(size, network_.input);
@@ -122,12 +112,6 @@ DetectorCounts YoloDetector::counts() const {
 
 ImageSize YoloDetector::input_size() const {
   return impl_->input_size();
-}
-
-std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& config) {
-  auto detector = std::make_unique<YoloDetector>(files, config);
-  if (config.tile_columns * config.tile_rows == 1) return detector;
-  return std::make_unique<TiledDetector>(std::move(detector), config);
 }
 
 }  // namespace geoloc::io

@@ -15,21 +15,24 @@
 namespace geoloc::io {
 namespace {
 
-constexpr double kTolerance_px = 0.5;
+constexpr double kTolerance_px = 0.1;
 constexpr double kMargin = 0.01;  // a score so close to the threshold may fall on either side of it
 
 std::vector<Detection> expected_detections(const nlohmann::json& fixture) {
   std::vector<Detection> detections;
   for (const auto& entry : fixture.at("detections")) {
     const auto box = entry.at("box").get<std::array<double, 4>>();
-    detections.push_back({{box[0], box[1], box[2], box[3]}, entry.at("confidence"), entry.at("class_id")});
+    detections.push_back({{box[0], box[1], box[2], box[3]},
+                          entry.at("confidence"),
+                          entry.at("class_id"),
+                          entry.at("sigma_px")});
   }
   return detections;
 }
 
 bool is_same(const Detection& a, const Detection& b) {
   const double differences[] = {a.box.x - b.box.x, a.box.y - b.box.y, a.box.width - b.box.width,
-                                a.box.height - b.box.height};
+                                a.box.height - b.box.height, a.sigma_px - b.sigma_px};
   return a.class_id == b.class_id && std::abs(a.confidence - b.confidence) < kMargin &&
          std::all_of(std::begin(differences), std::end(differences),
                      [](double d) { return std::abs(d) < kTolerance_px; });
@@ -54,8 +57,8 @@ TEST(DefaultModel, FindsWhatOnnxRuntimeFinds) {
   DetectionConfig config;
   config.confidence = 0.4;
   config.nms_iou = 0.5;
-  YoloDetector detector{{model, {}}, config};
-  const auto found = detector.detect(cv::imread((data / "detection/targets.jpg").string()));
+  const auto detector = open_detector({model, {}}, config);
+  const auto found = detector->detect(cv::imread((data / "detection/targets.jpg").string()));
   const auto expected = expected_detections(fixture);
   EXPECT_GE(expected.size(), 5U);
   SCOPED_TRACE("after a change of the model: tools/fixtures/make_detection_fixture.py");

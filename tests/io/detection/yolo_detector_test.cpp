@@ -8,18 +8,14 @@
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "fixtures.hpp"
 #include "support/temporary_folder.hpp"
 
 // The networks are described in tools/fixtures/make_onnx_fixtures.py: what they find is known in closed form.
 namespace geoloc::io {
 namespace {
 
-const cv::Scalar kRed{0, 0, 255};
 const cv::Scalar kBlue{255, 0, 0};
-
-std::filesystem::path fixture(const std::string& name) {
-  return std::filesystem::path{GEOLOC_TEST_DATA_DIR} / "onnx" / (name + ".onnx");
-}
 
 DetectionConfig with(Backend backend) {
   DetectionConfig config;
@@ -62,15 +58,6 @@ class EachBackend : public ::testing::TestWithParam<Backend> {
     return YoloDetector{{fixture(model), {}}, with(GetParam())};
   }
 };
-
-std::vector<Backend> backends() {
-  if (has_openvino()) return {Backend::kOpencv, Backend::kOpenvino};
-  return {Backend::kOpencv};
-}
-
-std::string backend_name(const ::testing::TestParamInfo<Backend>& instance) {
-  return instance.param == Backend::kOpencv ? "opencv" : "openvino";
-}
 
 INSTANTIATE_TEST_SUITE_P(YoloDetector, EachBackend, ::testing::ValuesIn(backends()), backend_name);
 
@@ -218,8 +205,8 @@ TEST(Backends, GiveTheSameBoxesToATenthOfAPixel) {
   if (!has_openvino()) GTEST_SKIP() << "built without OpenVINO (scripts/openvino.sh)";
   const auto model = std::filesystem::path{GEOLOC_SOURCE_DIR} / "data/models/fiducial.onnx";
   const cv::Mat picture = cv::imread(std::string{GEOLOC_TEST_DATA_DIR} + "/detection/targets.jpg");
-  YoloDetector opencv{{model, {}}, with(Backend::kOpencv)}, openvino{{model, {}}, with(Backend::kOpenvino)};
-  const auto by_opencv = opencv.detect(picture), by_openvino = openvino.detect(picture);
+  const auto by_opencv = open_detector({model, {}}, with(Backend::kOpencv))->detect(picture);
+  const auto by_openvino = open_detector({model, {}}, with(Backend::kOpenvino))->detect(picture);
   ASSERT_GE(by_opencv.size(), 5U);
   ASSERT_EQ(by_opencv.size(), by_openvino.size());
   for (std::size_t i = 0; i < by_opencv.size(); ++i) {

@@ -14,6 +14,12 @@ enum class Backend {
 
 inline constexpr int kLongestInput_px = 8192;
 
+/// "detection.second_look": which boxes are looked at once more, by models that have a network for that.
+struct SecondLookConfig {
+  double confidence = 0.1;  ///< of the first look, from which on
+  int max_boxes = 40;        ///< in a picture, the most confident ones: a limit on the time it takes
+};
+
 /// "detection" in the configuration file.
 struct DetectionConfig {
   double confidence = 0.60;  ///< boxes with a lower score are dropped
@@ -26,6 +32,7 @@ struct DetectionConfig {
   int tile_columns = 1;     ///< a picture is cut into so many by so many tiles; 1 by 1: it is not cut
   int tile_rows = 1;
   int tile_overlap_px = 64;  ///< of neighbours, in the picture: no less than an object that matters is long
+  SecondLookConfig second_look = {};
 
   /// Every fault, named by its JSON path.
   std::vector<std::string> problems() const;

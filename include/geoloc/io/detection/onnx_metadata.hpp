@@ -43,4 +43,7 @@ std::optional<std::vector<std::string>> parse_class_names(std::string_view dicti
 std::optional<CentreSigma> parse_centre_sigma(std::string_view text);
 inline constexpr const char* kCentreSigmaKey = "geoloc_centre_sigma_px";
 
+/// The property that names the file of a network for second looks, which lies beside the model.
+inline constexpr const char* kSecondLookKey = "geoloc_second_look";
+
 }  // namespace geoloc::io

@@ -16,9 +16,12 @@ namespace geoloc::io {
 struct DetectorFiles {
   std::filesystem::path model;  ///< ONNX, output [1, 4 + classes, candidates] (yolo_decode.hpp)
   std::optional<std::filesystem::path> class_names;  ///< a name a line; without it, those in the model
+  /// Network for second looks (second_look.hpp); empty: none; without it, the one that the model's metadata
+  /// name, beside the model.
+  std::optional<std::filesystem::path> second_look = {};
 };
 
-/// A YOLO network run on the CPU over whole pictures; the tiles of its configuration are not for it
+/// A YOLO network run on the CPU over whole pictures; tiles and second looks are not for it
 /// (open_detector()).
 class YoloDetector final : public Detector {
  public:
@@ -42,8 +45,8 @@ class YoloDetector final : public Detector {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The detector that the configuration asks for: on whole pictures, or on their tiles as well. Throws as
-/// YoloDetector does.
+/// The detector that files and configuration ask for: on whole pictures, or on their tiles as well; with a
+/// second look, or without. Throws as YoloDetector does.
 std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& config);
 
 /// Whether Backend::kOpenvino can be chosen.

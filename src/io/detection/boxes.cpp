@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "boxes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geoloc/io/detection/yolo_decode.hpp"
+
+namespace geoloc::io {
+namespace {
+
+/// Suppression compares pairs, so a network gone wrong must not give it tens of thousands of boxes.
+constexpr std::size_t kMaxCandidates = 2000;
+
+bool is_inside(const Box& box, ImageSize picture) {
+  return box.x >= 0.0 && box.y >= 0.0 && box.x + box.width <= picture.width_px &&
+         box.y + box.height <= picture.height_px;
+}
+
+}  // namespace
+
+std::vector<Detection> suppress_overlaps(std::vector<Detection> boxes, const DetectionConfig& config) {
+  std::stable_sort(boxes.begin(), boxes.end(),
+                   [](const Detection& a, const Detection& b) { return a.confidence > b.confidence; });
+  if (boxes.size() > kMaxCandidates) boxes.resize(kMaxCandidates);
+  std::vector<Detection> kept;
+  for (const Detection& box : boxes) {
+    if (kept.size() >= static_cast<std::size_t>(config.max_detections)) break;
+    const bool overlaps = std::any_of(kept.begin(), kept.end(), [&](const Detection& other) {
+      return other.class_id == box.class_id && intersection_over_union(other.box, box.box) > config.nms_iou;
+    });
+    if (!overlaps) kept.push_back(box);
+  }
+  return kept;
+}
+
+std::optional<Box> clipped(const Box& box, ImageSize picture) {
+  const double left = std::clamp(box.x, 0.0, static_cast<double>(picture.width_px));
+  const double right = std::clamp(box.x + box.width, 0.0, static_cast<double>(picture.width_px));
+  const double top = std::clamp(box.y, 0.0, static_cast<double>(picture.height_px));
+  const double bottom = std::clamp(box.y + box.height, 0.0, static_cast<double>(picture.height_px));
+  if (!(right > left && bottom > top)) return std::nullopt;
+  return Box{left, top, right - left, bottom - top};
+}
+
+double stated_sigma_px(double sigma_px, const Box& whole, ImageSize picture) {
+  if (!is_inside(whole, picture) || !std::isfinite(sigma_px)) return 0.0;
+  return std::clamp(sigma_px, kSmallestSigma_px, kLargestSigma_px);
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/core/types.hpp>
+#include <string>
+#include <vector>
+
+#include "geoloc/io/detection/yolo_detector.hpp"
+
+namespace geoloc::io {
+
+/// A network of tools/fixtures/make_onnx_fixtures.py.
+inline std::filesystem::path fixture(const std::string& name) {
+  return std::filesystem::path{GEOLOC_TEST_DATA_DIR} / "onnx" / (name + ".onnx");
+}
+
+/// Those that were built in.
+inline std::vector<Backend> backends() {
+  if (has_openvino()) return {Backend::kOpencv, Backend::kOpenvino};
+  return {Backend::kOpencv};
+}
+
+inline std::string backend_name(const ::testing::TestParamInfo<Backend>& instance) {
+  return instance.param == Backend::kOpencv ? "opencv" : "openvino";
+}
+
+inline const cv::Scalar kRed{0, 0, 255};
+
+}  // namespace geoloc::io

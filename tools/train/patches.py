@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the second look is given of a picture: the surroundings of a box, all of one size and one exposure.
+src/io/detection/second_look.cpp cuts the same."""
+
+import cv2
+import numpy as np
+
+PATCH_PX = 48
+SURROUNDINGS = 2.0  # a patch shows so many times the longer side of a box
+LEAST_SIDE_PX = 16  # of the square that a patch shows
+LUMA = np.float32([0.299, 0.587, 0.114])  # shares of red, green, blue
+LEAST_CONTRAST = 2.0  # grey levels: a patch with less is not stretched further, it would show noise alone
+
+
+def squares_around(boxes: np.ndarray, image: np.ndarray) -> np.ndarray:
+    """Left, top and side [K, 3] in whole pixels, of boxes [K, 4] (centre x, y, width, height)."""
+    side = np.floor(SURROUNDINGS * boxes[:, 2:].max(1) + 0.5).clip(LEAST_SIDE_PX, min(image.shape[:2]))
+    corner = np.floor(boxes[:, :2] - 0.5 * side[:, None] + 0.5)
+    return np.column_stack((corner, side)).astype(int)
+
+
+def cut(image: np.ndarray, square: np.ndarray) -> np.ndarray:
+    """The square of the image; outside of it, the pixels of its edge go on."""
+    left, top, side = square
+    height, width = image.shape[:2]
+    inside = image[max(top, 0) : top + side, max(left, 0) : left + side]
+    if inside.shape[:2] == (side, side):
+        return inside
+    return cv2.copyMakeBorder(
+        inside,
+        max(-top, 0),
+        max(top + side - height, 0),
+        max(-left, 0),
+        max(left + side - width, 0),
+        cv2.BORDER_REPLICATE,
+    )
+
+
+def resized(square: np.ndarray, size: int = PATCH_PX) -> np.ndarray:
+    shrinks = square.shape[0] > size
+    return cv2.resize(square, (size, size), interpolation=cv2.INTER_AREA if shrinks else cv2.INTER_LINEAR)
+
+
+def normalised(patch: np.ndarray) -> np.ndarray:
+    """[H, W, 3] of any type to [3, H, W]: each channel 0 in the mean, the brightness with a standard deviation of 1."""
+    pixels = patch.astype(np.float32)
+    contrast = max(float((pixels @ LUMA).std()), LEAST_CONTRAST)
+    return ((pixels - pixels.mean((0, 1))) / contrast).transpose(2, 0, 1)
+
+
+def boxes_of(answers: np.ndarray, squares: np.ndarray) -> np.ndarray:
+    """Answers [K, 4] (off-centre x, y and width, height in sides of the square) to boxes [K, 4] in pixels."""
+    side = squares[:, 2:].astype(np.float64)
+    return np.column_stack((squares[:, :2] + (0.5 + answers[:, :2]) * side, answers[:, 2:4] * side))
+
+
+def answers_for(boxes: np.ndarray, squares: np.ndarray) -> np.ndarray:
+    """The inverse of boxes_of()."""
+    side = squares[:, 2:].astype(np.float64)
+    return np.column_stack(((boxes[:, :2] - squares[:, :2]) / side - 0.5, boxes[:, 2:] / side))
