@@ -118,10 +118,7 @@ void MovingTracker::absorb(std::size_t k, const Look& look, const Frame& frame) 
   estimate.gain += gain.topRows<2>() * (lasting(look.jacobian) - estimate.gain);
   estimate.last_look = frame.view.vehicle.time;
   estimate.size_m += (look.size_m - estimate.size_m) / (track.hits + 1);
-  ++track.hits;
-  track.confidence_sum += look.detection->confidence;
-  track.class_votes.add(look.detection->class_id, look.detection->confidence);
-  track.last_seen = frame.view.captured_at_host;
+  record_detection(track, *look.detection, frame.view.captured_at_host);
   track.position_in_enu = {estimate.motion.position(),
                            estimate.motion.position_covariance() +
                                estimate.gain.lazyProduct(estimate.gain.transpose()) +
@@ -144,10 +141,8 @@ void MovingTracker::start(const Look& look, const Frame& frame, TrackBook& book)
   estimate.size_m = look.size_m;
   Track track;
   track.id = book.next_id++;
-  track.hits = 1;
-  track.confidence_sum = look.detection->confidence;
-  track.class_votes.add(look.detection->class_id, look.detection->confidence);
-  track.first_seen = track.last_seen = frame.view.captured_at_host;
+  track.first_seen = frame.view.captured_at_host;
+  record_detection(track, *look.detection, frame.view.captured_at_host);
   track.position_in_enu = {
       look.position, look.pixel_noise + look.jacobian * look.jacobian.transpose() + frame.offset_covariance};
   tracks_.push_back(track);
