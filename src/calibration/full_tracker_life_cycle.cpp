@@ -5,7 +5,6 @@
 
 #include "geoloc/calibration/full_tracker.hpp"
 #include "geoloc/calibration/visibility.hpp"
-#include "geoloc/geometry/angles.hpp"
 
 // What becomes of tracks: seen, missed, begun, removed.
 namespace geoloc {
@@ -109,10 +108,8 @@ void FullTracker::absorb_matched(HostTime captured_at) {
     if (!is_matched(i)) continue;
     const JointAssociation::Match& match = (*matches_)[i];
     const auto k = static_cast<std::size_t>(match.track);
-    const Eigen::Matrix2d& covariance = match.innovation_covariance;
-    const double likelihood = std::exp(-0.5 * mahalanobis_squared(match.innovation, covariance)) /
-                              (2.0 * kPi * std::sqrt(covariance.determinant()));
-    estimates_[k].existence.hit(found, likelihood, looks_[i].clutter_density);
+    estimates_[k].existence.hit(found, density(match.innovation, match.innovation_covariance),
+                                looks_[i].clutter_density);
     absorb(k, looks_[i], captured_at);
     tracks_[k].penalty = std::max(0, tracks_[k].penalty - 1);
     if (estimates_[k].existence.probability() >= config_.confirm_probability) {

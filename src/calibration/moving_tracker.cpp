@@ -2,12 +2,10 @@
 #include "geoloc/calibration/moving_tracker.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "geoloc/calibration/visibility.hpp"
-#include "geoloc/geometry/angles.hpp"
 
 namespace geoloc {
 namespace {
@@ -110,9 +108,7 @@ void MovingTracker::absorb(std::size_t k, const Look& look, const Frame& frame) 
   const Eigen::Matrix2d noise = noise_against(look, estimate.gain);
   const Eigen::Matrix2d covariance = estimate.motion.position_covariance() + noise;
   const Eigen::Vector2d innovation = look.position - estimate.motion.position();
-  const double likelihood = std::exp(-0.5 * mahalanobis_squared(innovation, covariance)) /
-                            (2.0 * kPi * std::sqrt(covariance.determinant()));
-  estimate.existence.hit(frame.detection_probability, likelihood, look.clutter_density);
+  estimate.existence.hit(frame.detection_probability, density(innovation, covariance), look.clutter_density);
   const ConstantVelocity::Gain gain = estimate.motion.update(look.position, noise);
   // What shifts the looks shifts the track as far as it follows them.
   estimate.gain += gain.topRows<2>() * (lasting(look.jacobian) - estimate.gain);
