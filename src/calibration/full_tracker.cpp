@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/calibration/full_tracker.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
