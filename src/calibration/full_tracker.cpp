@@ -102,14 +102,12 @@ void FullTracker::update(const std::vector<LocatedDetection>& detections, const 
 }
 
 void FullTracker::begin_frame(const FrameView& view) {
-  ++frames_;
   if (view.vehicle.sigma_horizontal_m)
     reported_accuracy_m_ = std::clamp(*view.vehicle.sigma_horizontal_m, 0.02, 100.0);
-  if (previous_frame_) {
-    const double pause_s = seconds(view.vehicle.time - *previous_frame_);
+  if (frames_++ > 0) {
+    const double pause_s = seconds(view.vehicle.time - now_);
     if (pause_s > 0.0) noise_correlation_ = std::max(1.0, 2.0 * config_.fast_time_constant_s / pause_s);
   }
-  previous_frame_ = view.vehicle.time;
   now_ = view.vehicle.time;
   span_ = drift_.cover(view.vehicle.time, reported_sigma_m());
   while (drift_.size() > config_.drift.max_nodes) {

@@ -164,7 +164,6 @@ class FullTracker {
   std::vector<double> median_scratch_;
   std::vector<Reach> reach_of_track_;  // scratch of add_pairings
 
-  std::optional<VehicleTime> previous_frame_;
   std::optional<VehicleTime> solved_at_;
   int frames_ = 0;
   int solutions_ = 0;
