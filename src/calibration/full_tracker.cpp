@@ -193,16 +193,14 @@ bool FullTracker::match_known_points() {
   if (!known_points_.match(known_candidates_, std::sqrt(shared_variance), std::sqrt(own_variance / count),
                            config_.gate, config_.ambiguity))
     return false;
-  bool is_new = false;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     const KnownPoints::Entry* entry = known_points_.of_track(tracks_[k].id);
     if (entry == nullptr || estimates_[k].is_known) continue;
     landmarks_[estimates_[k].landmark].add_prior(
         entry->position_in_enu, Eigen::Matrix2d::Identity() / (entry->sigma_m * entry->sigma_m));
     estimates_[k].is_known = true;
-    is_new = true;
   }
-  return is_new;
+  return true;
 }
 
 void FullTracker::learn_wandering() {
