@@ -2,7 +2,6 @@
 #include "detect/results.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -19,11 +18,6 @@ namespace geoloc::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& file, int error) {
-  throw std::runtime_error(
-      file.string() + ": cannot be written: " + std::generic_category().message(error != 0 ? error : EIO));
-}
 
 bool is_jpeg(const fs::path& file) {
   const std::string ending = file.extension().string();
@@ -76,20 +70,14 @@ DetectResults::DetectResults(Places places, const std::vector<DetectInput>& inpu
     check_drawn_names(places_.draw, inputs);
     std::error_code error;
     fs::create_directories(places_.draw, error);
-    if (error) fail(places_.draw, error.value());
+    if (error) io::fail_to_write(places_.draw, error.value());
   }
   if (!places_.json.empty() && places_.json != "-") {
-    partial_json_ = places_.json + ".partial-" + std::to_string(::getpid());
+    partial_json_.emplace(places_.json);
     errno = 0;
-    json_.open(partial_json_, std::ios::binary | std::ios::trunc);
-    if (!json_) fail(places_.json, errno);
+    json_.open(partial_json_->name(), std::ios::binary | std::ios::trunc);
+    if (!json_) io::fail_to_write(places_.json, errno);
   }
-}
-
-DetectResults::~DetectResults() {
-  if (partial_json_.empty()) return;
-  std::error_code ignored;
-  fs::remove(partial_json_, ignored);
 }
 
 void DetectResults::add(SeenPicture& picture, const std::vector<Detection>& detections) {
@@ -121,13 +109,13 @@ void DetectResults::write_json(const SeenPicture& picture, const std::vector<Det
   }
   // Names of files and classes may be any bytes.
   const std::string text = line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  if (partial_json_.empty()) {
+  if (!partial_json_) {
     std::fputs(text.c_str(), stdout);
     return;
   }
   errno = 0;
   json_ << text;
-  if (!json_) fail(places_.json, errno);
+  if (!json_) io::fail_to_write(places_.json, errno);
 }
 
 void DetectResults::draw(const SeenPicture& picture) {
@@ -152,14 +140,11 @@ void DetectResults::finish_video() {
 }
 
 void DetectResults::finish() {
-  if (partial_json_.empty()) return;
+  if (!partial_json_) return;
   errno = 0;
   json_.close();
-  if (!json_) fail(places_.json, errno);
-  std::error_code error;
-  fs::rename(partial_json_, places_.json, error);
-  if (error) fail(places_.json, error.value());
-  partial_json_.clear();
+  if (!json_) io::fail_to_write(places_.json, errno);
+  partial_json_->commit();
 }
 
 }  // namespace geoloc::apps

@@ -12,6 +12,7 @@
 
 #include "detect/inputs.hpp"
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/io/partial_file.hpp"
 #include "geoloc/io/video/video_file.hpp"
 
 namespace geoloc::apps {
@@ -25,8 +26,8 @@ struct SeenPicture {
 };
 
 /// Where geoloc_detect leaves what it finds: lines of JSON, pictures and videos with boxes drawn into them,
-/// or, without either, lines for a person on stdout. Throws std::runtime_error naming the file that cannot be
-/// written.
+/// or, without either, lines for a person on stdout. A JSON file or a video that is not finished is not left
+/// behind. Throws std::runtime_error naming the file that cannot be written.
 class DetectResults {
  public:
   struct Places {
@@ -36,11 +37,6 @@ class DetectResults {
 
   /// Throws also where drawn pictures would take the place of inputs or of one another.
   DetectResults(Places places, const std::vector<DetectInput>& inputs, std::vector<std::string> class_names);
-
-  /// What was not finished is not left behind.
-  ~DetectResults();
-  DetectResults(const DetectResults&) = delete;
-  DetectResults& operator=(const DetectResults&) = delete;
 
   /// Draws into the picture.
   void add(SeenPicture& picture, const std::vector<Detection>& detections);
@@ -58,7 +54,7 @@ class DetectResults {
 
   Places places_;
   std::vector<std::string> class_names_;
-  std::filesystem::path partial_json_;
+  std::optional<io::PartialFile> partial_json_;
   std::ofstream json_;
   std::unique_ptr<io::VideoFile> video_;
 };

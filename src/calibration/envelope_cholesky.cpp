@@ -8,21 +8,21 @@ namespace geoloc {
 
 EnvelopeCholesky::EnvelopeCholesky(Eigen::Index max_size) {
   rows_.setZero(max_size, max_size);
-  first_.resize(static_cast<std::size_t>(max_size));
+  first_.setZero(max_size);
   inverse_diagonal_.setZero(max_size);
 }
 
 void EnvelopeCholesky::reset(Eigen::Index size) {
   size_ = size;
   rows_.topLeftCorner(size, size).setZero();
-  for (Eigen::Index i = 0; i < size; ++i) first_[static_cast<std::size_t>(i)] = i;
+  for (Eigen::Index i = 0; i < size; ++i) first_[i] = i;
 }
 
 bool EnvelopeCholesky::factorize() {
   for (Eigen::Index i = 0; i < size_; ++i) {
-    const Eigen::Index first = first_[static_cast<std::size_t>(i)];
+    const Eigen::Index first = first_[i];
     for (Eigen::Index j = first; j < i; ++j) {
-      const Eigen::Index begin = std::max(first, first_[static_cast<std::size_t>(j)]);
+      const Eigen::Index begin = std::max(first, first_[j]);
       const double sum = begin < j ? row(i, begin, j).dot(row(j, begin, j)) : 0.0;
       rows_(i, j) = (rows_(i, j) - sum) * inverse_diagonal_[j];
     }
@@ -38,7 +38,7 @@ void EnvelopeCholesky::solve_lower(Eigen::Ref<TwoColumns> X, Eigen::Index first)
   for (Eigen::Index i = first; i < size_; ++i) {
     // Two sums that do not wait for each other.
     Eigen::RowVector2d even = X.row(i), odd = Eigen::RowVector2d::Zero();
-    Eigen::Index j = std::max(first, first_[static_cast<std::size_t>(i)]);
+    Eigen::Index j = std::max(first, first_[i]);
     for (; j + 1 < i; j += 2) {
       even -= rows_(i, j) * X.row(j);
       odd -= rows_(i, j + 1) * X.row(j + 1);
@@ -50,11 +50,11 @@ void EnvelopeCholesky::solve_lower(Eigen::Ref<TwoColumns> X, Eigen::Index first)
 
 void EnvelopeCholesky::solve(Eigen::Ref<Eigen::VectorXd> x) const {
   const auto row_before = [&](Eigen::Index i) {
-    const Eigen::Index first = first_[static_cast<std::size_t>(i)];
+    const Eigen::Index first = first_[i];
     return rows_.row(i).segment(first, i - first).transpose();
   };
   const auto x_before = [&](Eigen::Index i) {
-    const Eigen::Index first = first_[static_cast<std::size_t>(i)];
+    const Eigen::Index first = first_[i];
     return x.segment(first, i - first);
   };
   for (Eigen::Index i = 0; i < size_; ++i)

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/calibration/full_tracker.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -104,14 +102,12 @@ void FullTracker::update(const std::vector<LocatedDetection>& detections, const 
 }
 
 void FullTracker::begin_frame(const FrameView& view) {
-  ++frames_;
   if (view.vehicle.sigma_horizontal_m)
     reported_accuracy_m_ = std::clamp(*view.vehicle.sigma_horizontal_m, 0.02, 100.0);
-  if (previous_frame_) {
-    const double pause_s = seconds(view.vehicle.time - *previous_frame_);
+  if (frames_++ > 0) {
+    const double pause_s = seconds(view.vehicle.time - now_);
     if (pause_s > 0.0) noise_correlation_ = std::max(1.0, 2.0 * config_.fast_time_constant_s / pause_s);
   }
-  previous_frame_ = view.vehicle.time;
   now_ = view.vehicle.time;
   span_ = drift_.cover(view.vehicle.time, reported_sigma_m());
   while (drift_.size() > config_.drift.max_nodes) {
@@ -197,16 +193,14 @@ bool FullTracker::match_known_points() {
   if (!known_points_.match(known_candidates_, std::sqrt(shared_variance), std::sqrt(own_variance / count),
                            config_.gate, config_.ambiguity))
     return false;
-  bool is_new = false;
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     const KnownPoints::Entry* entry = known_points_.of_track(tracks_[k].id);
     if (entry == nullptr || estimates_[k].is_known) continue;
     landmarks_[estimates_[k].landmark].add_prior(
         entry->position_in_enu, Eigen::Matrix2d::Identity() / (entry->sigma_m * entry->sigma_m));
     estimates_[k].is_known = true;
-    is_new = true;
   }
-  return is_new;
+  return true;
 }
 
 void FullTracker::learn_wandering() {

@@ -5,7 +5,6 @@
 
 #include "geoloc/calibration/full_tracker.hpp"
 #include "geoloc/calibration/visibility.hpp"
-#include "geoloc/geometry/angles.hpp"
 
 // What becomes of tracks: seen, missed, begun, removed.
 namespace geoloc {
@@ -64,14 +63,12 @@ void FullTracker::weigh_missed(const Projector& projector, const FrameView& view
   }
 }
 
-void FullTracker::absorb(std::size_t k, const Look& look) {
+void FullTracker::absorb(std::size_t k, const Look& look, HostTime captured_at) {
   Track& track = tracks_[k];
   Estimate& estimate = estimates_[k];
   estimate.last_look = now_;
   estimate.size_m += (look.size_m - estimate.size_m) / (track.hits + 1);
-  ++track.hits;
-  track.confidence_sum += look.detection->confidence;
-  track.class_votes.add(look.detection->class_id, look.detection->confidence);
+  record_detection(track, *look.detection, captured_at);
   add_to_sums(k, look);
 }
 
@@ -111,12 +108,9 @@ void FullTracker::absorb_matched(HostTime captured_at) {
     if (!is_matched(i)) continue;
     const JointAssociation::Match& match = (*matches_)[i];
     const auto k = static_cast<std::size_t>(match.track);
-    const Eigen::Matrix2d& covariance = match.innovation_covariance;
-    const double likelihood = std::exp(-0.5 * mahalanobis_squared(match.innovation, covariance)) /
-                              (2.0 * kPi * std::sqrt(covariance.determinant()));
-    estimates_[k].existence.hit(found, likelihood, looks_[i].clutter_density);
-    absorb(k, looks_[i]);
-    tracks_[k].last_seen = captured_at;
+    estimates_[k].existence.hit(found, density(match.innovation, match.innovation_covariance),
+                                looks_[i].clutter_density);
+    absorb(k, looks_[i], captured_at);
     tracks_[k].penalty = std::max(0, tracks_[k].penalty - 1);
     if (estimates_[k].existence.probability() >= config_.confirm_probability) {
       tracks_[k].status = TrackStatus::kConfirmed;
@@ -143,12 +137,12 @@ void FullTracker::start_tentative(HostTime captured_at) {
     }
     Track track;
     track.id = book_.next_id++;
-    track.first_seen = track.last_seen = captured_at;
+    track.first_seen = captured_at;
     tracks_.push_back(track);
     estimates_.push_back(estimate);
     look_of_track_.push_back(static_cast<int>(i));
     detection_probability_of_track_.push_back(0.0);
-    absorb(tracks_.size() - 1, looks_[i]);
+    absorb(tracks_.size() - 1, looks_[i], captured_at);
     tracks_.back().position_in_enu.covariance = covariance_of_first(looks_[i]);
     ++book_.counters.created;
   }

@@ -2,12 +2,10 @@
 #include "geoloc/calibration/moving_tracker.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "geoloc/calibration/visibility.hpp"
-#include "geoloc/geometry/angles.hpp"
 
 namespace geoloc {
 namespace {
@@ -110,18 +108,13 @@ void MovingTracker::absorb(std::size_t k, const Look& look, const Frame& frame) 
   const Eigen::Matrix2d noise = noise_against(look, estimate.gain);
   const Eigen::Matrix2d covariance = estimate.motion.position_covariance() + noise;
   const Eigen::Vector2d innovation = look.position - estimate.motion.position();
-  const double likelihood = std::exp(-0.5 * mahalanobis_squared(innovation, covariance)) /
-                            (2.0 * kPi * std::sqrt(covariance.determinant()));
-  estimate.existence.hit(frame.detection_probability, likelihood, look.clutter_density);
+  estimate.existence.hit(frame.detection_probability, density(innovation, covariance), look.clutter_density);
   const ConstantVelocity::Gain gain = estimate.motion.update(look.position, noise);
   // What shifts the looks shifts the track as far as it follows them.
   estimate.gain += gain.topRows<2>() * (lasting(look.jacobian) - estimate.gain);
   estimate.last_look = frame.view.vehicle.time;
   estimate.size_m += (look.size_m - estimate.size_m) / (track.hits + 1);
-  ++track.hits;
-  track.confidence_sum += look.detection->confidence;
-  track.class_votes.add(look.detection->class_id, look.detection->confidence);
-  track.last_seen = frame.view.captured_at_host;
+  record_detection(track, *look.detection, frame.view.captured_at_host);
   track.position_in_enu = {estimate.motion.position(),
                            estimate.motion.position_covariance() +
                                estimate.gain.lazyProduct(estimate.gain.transpose()) +
@@ -144,10 +137,8 @@ void MovingTracker::start(const Look& look, const Frame& frame, TrackBook& book)
   estimate.size_m = look.size_m;
   Track track;
   track.id = book.next_id++;
-  track.hits = 1;
-  track.confidence_sum = look.detection->confidence;
-  track.class_votes.add(look.detection->class_id, look.detection->confidence);
-  track.first_seen = track.last_seen = frame.view.captured_at_host;
+  track.first_seen = frame.view.captured_at_host;
+  record_detection(track, *look.detection, frame.view.captured_at_host);
   track.position_in_enu = {
       look.position, look.pixel_noise + look.jacobian * look.jacobian.transpose() + frame.offset_covariance};
   tracks_.push_back(track);

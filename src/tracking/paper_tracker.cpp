@@ -13,13 +13,6 @@ Eigen::Matrix2d isotropic(double sigma_m) {
   return sigma_m * sigma_m * Eigen::Matrix2d::Identity();
 }
 
-void count_hit(Track& track, const Detection& detection, HostTime captured_at) {
-  ++track.hits;
-  track.confidence_sum += detection.confidence;
-  track.class_votes.add(detection.class_id, detection.confidence);
-  track.last_seen = captured_at;
-}
-
 /// Both filters saw the same object: their estimates are combined, and it keeps its older name.
 void absorb(Track& kept, const Track& gone) {
   kept.position_in_enu =
@@ -116,7 +109,7 @@ void PaperTracker::update_matched(const std::vector<LocatedDetection>& detection
                                           measurement_covariance(detections[i]));
     track.position_in_enu.covariance += process_covariance_;
     track.penalty = std::max(0, track.penalty - 1);
-    count_hit(track, detections[i].detection, captured_at);
+    record_detection(track, detections[i].detection, captured_at);
     if (track.hits >= config_.confirm_hits) track.status = TrackStatus::kConfirmed;
   }
 }
@@ -141,7 +134,7 @@ void PaperTracker::start_tentative(const std::vector<LocatedDetection>& detectio
     track.id = next_id_++;
     track.position_in_enu = {detections[i].fix.position_in_enu, measurement_covariance(detections[i])};
     track.first_seen = captured_at;
-    count_hit(track, detections[i].detection, captured_at);
+    record_detection(track, detections[i].detection, captured_at);
     if (track.hits >= config_.confirm_hits) track.status = TrackStatus::kConfirmed;
     tracks_.push_back(track);
     ++counters_.created;

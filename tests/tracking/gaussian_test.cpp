@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "geoloc/geometry/angles.hpp"
 #include "geoloc/tracking/class_votes.hpp"
 
 namespace geoloc {
@@ -36,6 +39,19 @@ TEST(KalmanUpdate, OfManyEqualMeasurementsConvergesOnTheirMean) {
 TEST(Mahalanobis, IsTheDistanceInSigmas) {
   EXPECT_DOUBLE_EQ(mahalanobis_squared({3, 0}, symmetric(9, 0, 1)), 1.0);
   EXPECT_DOUBLE_EQ(mahalanobis_squared({0, 3}, symmetric(9, 0, 1)), 9.0);
+}
+
+TEST(Density, IsTheProductOfItsAxesDensitiesAndIntegratesToOne) {
+  const auto along_axis = [](double x, double variance) {
+    return std::exp(-0.5 * x * x / variance) / std::sqrt(2.0 * kPi * variance);
+  };
+  EXPECT_DOUBLE_EQ(density({1.5, -0.5}, symmetric(4, 0, 0.25)), along_axis(1.5, 4) * along_axis(-0.5, 0.25));
+  const double step = 0.05;
+  double sum = 0.0;
+  for (int i = -300; i < 300; ++i) {
+    for (int j = -300; j < 300; ++j) sum += step * step * density({step * i, step * j}, symmetric(4, 1.2, 1));
+  }
+  EXPECT_NEAR(sum, 1.0, 1e-6);
 }
 
 TEST(ClassVotes, MajorityWinsWhateverTheOrder) {

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <vector>
 
 namespace geoloc {
 
@@ -24,10 +23,7 @@ class EnvelopeCholesky {
   /// is not read.
   template <int Rows, int Columns>
   auto block(Eigen::Index row, Eigen::Index column) {
-    for (Eigen::Index r = row; r < row + Rows; ++r) {
-      Eigen::Index& first = first_[static_cast<std::size_t>(r)];
-      first = std::min(first, column);
-    }
+    for (Eigen::Index r = row; r < row + Rows; ++r) first_[r] = std::min(first_[r], column);
     return rows_.block<Rows, Columns>(row, column);
   }
 
@@ -56,7 +52,8 @@ class EnvelopeCholesky {
   }
 
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;
-  std::vector<Eigen::Index> first_;  // column of a row's first element that may not be zero
+  /// Of each row: the column of its first element that may not be zero.
+  Eigen::Matrix<Eigen::Index, Eigen::Dynamic, 1> first_;
   Eigen::VectorXd inverse_diagonal_;
   Eigen::Index size_ = 0;
 };

@@ -113,7 +113,7 @@ class FullTracker {
   double noise_share(const Track& track) const;
   double shared_share_of_noise(Duration pause) const;
   void merge(std::size_t a, std::size_t b);
-  void absorb(std::size_t track, const Look& look);
+  void absorb(std::size_t track, const Look& look, HostTime captured_at);
   void add_to_sums(std::size_t track, const Look& look);
   Eigen::Matrix2d covariance_of_first(const Look& look) const;
   void refresh(std::size_t track);
@@ -164,7 +164,6 @@ class FullTracker {
   std::vector<double> median_scratch_;
   std::vector<Reach> reach_of_track_;  // scratch of add_pairings
 
-  std::optional<VehicleTime> previous_frame_;
   std::optional<VehicleTime> solved_at_;
   int frames_ = 0;
   int solutions_ = 0;

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
-#include <string>
+#include <optional>
 #include <string_view>
 #include <system_error>
+
+#include "geoloc/io/partial_file.hpp"
 
 namespace geoloc::io {
 
@@ -24,24 +23,14 @@ inline bool is_file_or_none(const std::filesystem::path& name) {
 /// device or a pipe is written to as it is. Throws std::runtime_error naming the file and the system's
 /// reason.
 inline void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
-  const bool is_file = is_file_or_none(file);
-  std::filesystem::path beside = file;
-  if (is_file) beside += ".partial-" + std::to_string(::getpid());
-  const auto fail = [&](int error) {
-    std::error_code ignored;
-    if (is_file) std::filesystem::remove(beside, ignored);
-    throw std::runtime_error(file.string() +
-                             ": cannot be written: " + std::generic_category().message(error));
-  };
+  std::optional<PartialFile> beside;
+  if (is_file_or_none(file)) beside.emplace(file);
   errno = 0;
-  std::ofstream output(beside, std::ios::binary);
+  std::ofstream output(beside ? beside->name() : file, std::ios::binary);
   output.write(content.data(), static_cast<std::streamsize>(content.size()));
   output.close();
-  if (!output) fail(errno != 0 ? errno : EIO);
-  if (!is_file) return;
-  std::error_code error;
-  std::filesystem::rename(beside, file, error);
-  if (error) fail(error.value());
+  if (!output) fail_to_write(file, errno);
+  if (beside) beside->commit();
 }
 
 }  // namespace geoloc::io

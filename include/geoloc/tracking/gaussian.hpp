@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <cmath>
+
+#include "geoloc/geometry/angles.hpp"
 
 namespace geoloc {
 
@@ -15,6 +18,12 @@ struct Gaussian2 {
 /// Squared Mahalanobis distance of a residual; covariance positive definite.
 inline double mahalanobis_squared(const Eigen::Vector2d& residual, const Eigen::Matrix2d& covariance) {
   return residual.dot(covariance.inverse() * residual);
+}
+
+/// Probability density of a residual [1/m^2]; covariance positive definite.
+inline double density(const Eigen::Vector2d& residual, const Eigen::Matrix2d& covariance) {
+  return std::exp(-0.5 * mahalanobis_squared(residual, covariance)) /
+         (2.0 * kPi * std::sqrt(covariance.determinant()));
 }
 
 /// Kalman update by a direct measurement of the position (paper, section 4.1), in Joseph's form, which keeps

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "geoloc/camera/detection.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/tracking/class_votes.hpp"
 #include "geoloc/tracking/gaussian.hpp"
@@ -34,6 +35,14 @@ struct Track {
     return hits > 0 ? confidence_sum / hits : 0.0;
   }
 };
+
+/// A detection turned out to show the object: what it tells of it besides its position.
+inline void record_detection(Track& track, const Detection& detection, HostTime captured_at) {
+  ++track.hits;
+  track.confidence_sum += detection.confidence;
+  track.class_votes.add(detection.class_id, detection.confidence);
+  track.last_seen = captured_at;
+}
 
 /// Two tracks turned out to be one object: what `gone` knew besides its position goes to `kept`.
 inline void merge_records(Track& kept, const Track& gone) {

@@ -2,22 +2,16 @@
 #include "page_json.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/live_page/coordinate_texts.hpp"
+#include "geoloc/io/output/decimals.hpp"
 
 namespace geoloc::io::page_json {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Shortest decimal that reads back as the value to `digits` places; what is not finite is written as null.
-double decimals(double value, int digits) {
-  const double scale = std::pow(10.0, digits);
-  return std::round(value * scale) / scale;
-}
 
 ordered_json point(const Eigen::Vector2d& position_in_enu) {
   return {decimals(position_in_enu.x(), 3), decimals(position_in_enu.y(), 3)};

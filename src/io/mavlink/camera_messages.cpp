@@ -32,12 +32,7 @@ float field_of_view_deg(int size_px, double focal_length_px) {
 }  // namespace
 
 OutgoingFrame CameraWriter::heartbeat(MavAddress self) {
-  mavlink_heartbeat_t fields{};
-  fields.type = MAV_TYPE_CAMERA;
-  fields.autopilot = MAV_AUTOPILOT_INVALID;
-  fields.system_status = MAV_STATE_ACTIVE;
-  fields.mavlink_version = 3;
-  return pack(self, sequence_++, true, mavlink_msg_heartbeat_encode_status, fields);
+  return pack_heartbeat(self, sequence_++, true, MAV_TYPE_CAMERA);
 }
 
 OutgoingFrame CameraWriter::command_ack(MavAddress self, MavAddress to, std::uint16_t command,

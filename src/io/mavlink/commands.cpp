@@ -10,12 +10,7 @@
 namespace geoloc::io {
 
 OutgoingFrame CommandWriter::heartbeat(MavAddress self) {
-  mavlink_heartbeat_t fields{};
-  fields.type = MAV_TYPE_ONBOARD_CONTROLLER;
-  fields.autopilot = MAV_AUTOPILOT_INVALID;
-  fields.system_status = MAV_STATE_ACTIVE;
-  fields.mavlink_version = 3;
-  return pack(self, sequence_++, use_v2_, mavlink_msg_heartbeat_encode_status, fields);
+  return pack_heartbeat(self, sequence_++, use_v2_, MAV_TYPE_ONBOARD_CONTROLLER);
 }
 
 OutgoingFrame CommandWriter::set_message_interval(MavAddress self, MavAddress vehicle,

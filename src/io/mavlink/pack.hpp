@@ -27,4 +27,14 @@ OutgoingFrame pack(MavAddress self, std::uint8_t sequence, bool use_v2, Encode<F
   return frame;
 }
 
+/// Of a component that is no autopilot.
+inline OutgoingFrame pack_heartbeat(MavAddress self, std::uint8_t sequence, bool use_v2, MAV_TYPE type) {
+  mavlink_heartbeat_t fields{};
+  fields.type = type;
+  fields.autopilot = MAV_AUTOPILOT_INVALID;
+  fields.system_status = MAV_STATE_ACTIVE;
+  fields.mavlink_version = 3;
+  return pack(self, sequence, use_v2, mavlink_msg_heartbeat_encode_status, fields);
+}
+
 }  // namespace geoloc::io

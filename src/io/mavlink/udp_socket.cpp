@@ -6,25 +6,17 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
+
+#include "geoloc/io/endpoint.hpp"
 
 namespace geoloc::io {
 namespace {
 
 constexpr std::size_t kLargestDatagram = 65536;
-
-std::optional<std::uint16_t> parse_port(const std::string& text) {
-  std::uint16_t port = 0;
-  const char* const end = text.data() + text.size();
-  const auto [stopped_at, error] = std::from_chars(text.data(), end, port);
-  if (text.empty() || error != std::errc{} || stopped_at != end) return std::nullopt;
-  return port;
-}
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
@@ -73,24 +65,9 @@ int open_bound_socket(const UdpEndpoint& endpoint) {
 }  // namespace
 
 UdpEndpoint parse_udp_endpoint(const std::string& text) {
-  const std::size_t colon = text.rfind(':');
-  UdpEndpoint endpoint;
-  bool is_host = true;
-  if (colon != std::string::npos) {
-    endpoint.host = text.substr(0, colon);
-    const bool is_bracketed =
-        endpoint.host.size() > 2 && endpoint.host.front() == '[' && endpoint.host.back() == ']';
-    if (is_bracketed) endpoint.host = endpoint.host.substr(1, endpoint.host.size() - 2);
-    const auto is_allowed = [&](char c) {
-      const bool is_name = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-      return is_name || c == '.' || c == '-' || (is_bracketed && (c == ':' || c == '%'));
-    };
-    is_host = !endpoint.host.empty() && std::all_of(endpoint.host.begin(), endpoint.host.end(), is_allowed);
-  }
-  const auto port = parse_port(colon == std::string::npos ? text : text.substr(colon + 1));
-  if (!is_host || !port) throw std::invalid_argument("'" + text + "' is not PORT, HOST:PORT or [IPV6]:PORT");
-  endpoint.port = *port;
-  return endpoint;
+  const auto endpoint = parse_endpoint(text, UdpEndpoint{}.host);
+  if (!endpoint) throw std::invalid_argument("'" + text + "' is not PORT, HOST:PORT or [IPV6]:PORT");
+  return {endpoint->host, endpoint->port};
 }
 
 UdpSocket::UdpSocket(const UdpEndpoint& endpoint)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/output/geojson.hpp"
 
+#include "geoloc/io/output/decimals.hpp"
 #include "json_report.hpp"
 
 namespace geoloc::io {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geoloc/io/output/decimals.hpp"
 #include "json_report.hpp"
 
 namespace geoloc::io {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "json_report.hpp"
 
-#include <cmath>
-
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/io/output/decimals.hpp"
 
 namespace geoloc::io {
 
 using nlohmann::ordered_json;
-
-double decimals(double value, int digits) {
-  const double scale = std::pow(10.0, digits);
-  return std::round(value * scale) / scale;
-}
 
 ordered_json properties_to_json(const ObjectReport& object) {
   ordered_json properties{{"id", object.id},

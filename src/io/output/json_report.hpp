@@ -10,9 +10,6 @@
 // What GeoJSON and JSON Lines have in common.
 namespace geoloc::io {
 
-/// Shortest decimal that reads back as the value to `digits` places, so that text stays short and stable.
-double decimals(double value, int digits);
-
 /// The properties of docs/formats.md.
 nlohmann::ordered_json properties_to_json(const ObjectReport& object);
 

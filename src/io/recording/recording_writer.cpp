@@ -10,21 +10,17 @@
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/detection_fields.hpp"
+#include "geoloc/io/partial_file.hpp"
 
 namespace geoloc::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, int error) {
-  throw std::runtime_error(
-      file.string() + ": cannot be written: " + std::generic_category().message(error != 0 ? error : EIO));
-}
-
 std::ofstream open_for_writing(const fs::path& file) {
   errno = 0;
   std::ofstream output(file, std::ios::binary | std::ios::trunc);
-  if (!output) fail(file, errno);
+  if (!output) fail_to_write(file, errno);
   return output;
 }
 
@@ -32,7 +28,7 @@ std::ofstream open_for_writing(const fs::path& file) {
 void write_out(std::ofstream& output, const std::string& bytes, const fs::path& file) {
   errno = 0;
   output.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!output) fail(file, errno);
+  if (!output) fail_to_write(file, errno);
 }
 
 std::int64_t microseconds(HostTime time) {
@@ -60,7 +56,7 @@ RecordingWriter::RecordingWriter(fs::path folder) : folder_(std::move(folder)) {
   std::error_code error;
   fs::remove_all(partial_, error);
   fs::create_directories(partial_, error);
-  if (error) fail(partial_, error.value());
+  if (error) fail_to_write(partial_, error.value());
   telemetry_ = open_for_writing(partial_ / "telemetry.tlog");
   frames_ = open_for_writing(partial_ / "frames.jsonl");
 }
@@ -105,11 +101,11 @@ void RecordingWriter::add_frame(const RecordedFrame& frame) {
 void RecordingWriter::finish() {
   telemetry_.close();
   frames_.close();
-  if (!telemetry_ || !frames_) fail(partial_, errno);
+  if (!telemetry_ || !frames_) fail_to_write(partial_, errno);
   std::error_code error;
   fs::remove(folder_, error);  // an empty folder of that name may be there
   fs::rename(partial_, folder_, error);
-  if (error) fail(folder_, error.value());
+  if (error) fail_to_write(folder_, error.value());
 }
 
 std::string truth_to_geojson(const std::vector<TrueTarget>& targets) {

@@ -2,7 +2,6 @@
 #include "geoloc/io/video/video_file.hpp"
 
 #include <gst/app/gstappsrc.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
@@ -10,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "geoloc/io/partial_file.hpp"
 #include "gst_pipeline.hpp"
 
 namespace geoloc::io {
@@ -31,17 +31,10 @@ GstBufferPtr to_buffer(const cv::Mat& bgr) {
 class VideoFile::Impl {
  public:
   Impl(std::filesystem::path file, cv::Size size) : file_(std::move(file)), partial_(file_), size_(size) {
-    partial_ += ".partial-" + std::to_string(::getpid());
     init_gstreamer();
     pipeline_.reset(gst_pipeline_new(nullptr));
     build();
     gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
-  }
-
-  ~Impl() {
-    pipeline_.reset();
-    std::error_code ignored;
-    std::filesystem::remove(partial_, ignored);
   }
 
   void add(const cv::Mat& bgr, Duration time) {
@@ -60,9 +53,7 @@ class VideoFile::Impl {
     if (!wait_for_message(static_cast<GstMessageType>(GST_MESSAGE_EOS | GST_MESSAGE_ERROR), kPatience))
       fail("the encoder does not end");
     pipeline_.reset();
-    std::error_code error;
-    std::filesystem::rename(partial_, file_, error);
-    if (error) fail(error.message());
+    partial_.commit();
   }
 
  private:
@@ -76,7 +67,7 @@ class VideoFile::Impl {
     GstElement* encoder = add_encoder();
     GstElement* muxer = add_element(pipeline_.get(), "matroskamux");
     GstElement* sink = add_element(pipeline_.get(), "filesink");
-    g_object_set(sink, "location", partial_.c_str(), nullptr);
+    g_object_set(sink, "location", partial_.name().c_str(), nullptr);
     if (gst_element_link_many(GST_ELEMENT(source_), converter, encoder, muxer, sink, nullptr) == FALSE)
       fail("GStreamer's elements do not fit together");
   }
@@ -104,9 +95,9 @@ class VideoFile::Impl {
   }
 
   std::filesystem::path file_;
-  std::filesystem::path partial_;
+  PartialFile partial_;
   cv::Size size_;
-  GstPipelinePtr pipeline_;
+  GstPipelinePtr pipeline_;      // holds the file open: goes first
   GstAppSrc* source_ = nullptr;  // owned by the pipeline
 };
 

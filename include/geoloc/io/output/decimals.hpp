@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+namespace geoloc::io {
+
+/// The value rounded to `digits` places, so that JSON writes it short and stable: as the shortest decimal
+/// that reads back as it. What is not finite stays so, and JSON writes null.
+inline double decimals(double value, int digits) {
+  const double scale = std::pow(10.0, digits);
+  return std::round(value * scale) / scale;
+}
+
+}  // namespace geoloc::io

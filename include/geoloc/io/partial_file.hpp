@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+namespace geoloc::io {
+
+/// Throws std::runtime_error naming the file and the system's reason; an error of 0 is read as EIO.
+[[noreturn]] inline void fail_to_write(const std::filesystem::path& file, int error) {
+  throw std::runtime_error(
+      file.string() + ": cannot be written: " + std::generic_category().message(error != 0 ? error : EIO));
+}
+
+/// The name of a file while it is written, beside its place: readers see the old content or the new, never
+/// half. What is not committed is not left behind.
+class PartialFile {
+ public:
+  explicit PartialFile(std::filesystem::path file) : file_(std::move(file)), name_(file_) {
+    name_ += ".partial-" + std::to_string(::getpid());
+  }
+  ~PartialFile() {
+    std::error_code ignored;
+    if (!is_committed_) std::filesystem::remove(name_, ignored);
+  }
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+  /// To write to, and to close before commit().
+  const std::filesystem::path& name() const { return name_; }
+
+  /// The file is whole: it takes its place. Throws as fail_to_write() does.
+  void commit() {
+    std::error_code error;
+    std::filesystem::rename(name_, file_, error);
+    if (error) fail_to_write(file_, error.value());
+    is_committed_ = true;
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path name_;
+  bool is_committed_ = false;
+};
+
+}  // namespace geoloc::io
