@@ -12,33 +12,39 @@ namespace geoloc::sim {
 
 CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options) {
   CLI::Option* const images =
-      program.add_option("--images", options.count, "Write this many labelled pictures");
+      program.add_option("--images", options.wanted.count, "Write this many labelled pictures");
   images->check(CLI::Range(1, 1000000))->group("Labelled pictures");
   CLI::Option* const out = program.add_option("--out", options.folder, "New folder for them");
   out->group("Labelled pictures");
   images->needs(out);
   const std::map<std::string, ImageSet> sets{{"train", ImageSet::kTraining},
                                              {"held-back", ImageSet::kHeldBack}};
-  program.add_option("--grounds", options.set, "train, or held-back: other grounds in another light")
+  program.add_option("--grounds", options.wanted.set, "train, or held-back: other grounds in another light")
       ->transform(CLI::CheckedTransformer(sets))
+      ->needs(images)
+      ->group("Labelled pictures");
+  program
+      .add_flag("--crisp", options.wanted.with_crisp,
+                "Also crisp/*.png: the same in grey, by a camera without blur, noise or haze")
       ->needs(images)
       ->group("Labelled pictures");
   return images;
 }
 
-int run_images_mode(const ImagesOptions& options, std::uint64_t seed) {
+int run_images_mode(ImagesOptions options, std::uint64_t seed) {
+  options.wanted.seed = seed;
   if (std::filesystem::exists(options.folder)) {
     std::fprintf(stderr, "geoloc_sim: --out %s exists already; name a new folder\n", options.folder.c_str());
     return 2;
   }
   const apps::StopSignal stop;
   const auto progress = [&](int done) {
-    if (done % 10 == 0 || done == options.count)
-      std::fprintf(stderr, "\r%d / %d pictures", done, options.count);
+    if (done % 10 == 0 || done == options.wanted.count)
+      std::fprintf(stderr, "\r%d / %d pictures", done, options.wanted.count);
     return !stop.is_requested();
   };
   try {
-    const bool whole = write_labelled_images(options.count, seed, options.set, options.folder, progress);
+    const bool whole = write_labelled_images(options.wanted, options.folder, progress);
     std::fputs(whole ? "\n" : "\ninterrupted; nothing is left behind\n", stderr);
     return 0;
   } catch (const std::exception& error) {

@@ -10,15 +10,14 @@
 namespace geoloc::sim {
 
 struct ImagesOptions {
-  int count = 0;
+  LabelledImages wanted;
   std::string folder;
-  ImageSet set = ImageSet::kTraining;
 };
 
-/// Adds --images, --out and --grounds; returns the one that chooses this mode.
+/// Adds --images, --out, --grounds and --crisp; returns the one that chooses this mode.
 CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options);
 
 /// Writes the labelled pictures; the program's exit status.
-int run_images_mode(const ImagesOptions& options, std::uint64_t seed);
+int run_images_mode(ImagesOptions options, std::uint64_t seed);
 
 }  // namespace geoloc::sim

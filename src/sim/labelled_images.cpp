@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iomanip>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -98,15 +99,32 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
   if (!stream) throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
 }
 
+void write_picture(const std::filesystem::path& file, const cv::Mat& picture,
+                   const std::vector<int>& parameters = {}) {
+  if (!cv::imwrite(file, picture, parameters))
+    throw std::runtime_error(file.string() + ": cannot be written; is the disk full?");
+}
+
 void write_shot(const Shot& shot, Grounds& grounds, const std::filesystem::path& folder,
                 const std::string& name, cv::Mat& picture) {
   CameraRenderer renderer(shot.intrinsics, shot.scene, grounds.get(shot.scene), shot.settings);
   renderer.render(shot.enu_from_camera, shot.blur_px, picture);
-  const std::string image_file = folder / "images" / (name + ".jpg");
-  if (!cv::imwrite(image_file, picture, {cv::IMWRITE_JPEG_QUALITY, shot.jpeg_quality})) {
-    throw std::runtime_error(image_file + ": cannot be written; is the disk full?");
-  }
+  write_picture(folder / "images" / (name + ".jpg"), picture, {cv::IMWRITE_JPEG_QUALITY, shot.jpeg_quality});
   write_text(folder / "labels" / (name + ".txt"), yolo_lines(shot));
+}
+
+/// As a camera sees it that stands still in clear air, is in focus, well exposed and free of noise.
+void write_crisp(const Shot& shot, Grounds& grounds, const std::filesystem::path& file, cv::Mat& picture) {
+  RenderSettings settings;
+  settings.vignetting = 0.0;
+  settings.focus_sigma_px = 0.0;
+  settings.noise_sigma = 0.0;
+  settings.visibility_m = 1e6;
+  CameraRenderer renderer(shot.intrinsics, shot.scene, grounds.get(shot.scene), settings);
+  renderer.render(shot.enu_from_camera, {0.0, 0.0}, picture);
+  cv::Mat grey;
+  cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+  write_picture(file, grey);
 }
 
 /// What is not renamed at the end, for whatever reason, is not left behind.
@@ -132,7 +150,7 @@ std::vector<VisibleBox> labels_of(const Shot& shot) {
   return labels;
 }
 
-bool write_labelled_images(int count, std::uint64_t seed, ImageSet set, const std::filesystem::path& folder,
+bool write_labelled_images(const LabelledImages& wanted, const std::filesystem::path& folder,
                            const std::function<bool(int)>& progress) {
   namespace fs = std::filesystem;
   const fs::path target = folder.has_filename() ? folder : folder.parent_path();  // "pictures/" is "pictures"
@@ -141,14 +159,17 @@ bool write_labelled_images(int count, std::uint64_t seed, ImageSet set, const st
   fs::remove_all(unfinished.folder);
   fs::create_directories(unfinished.folder / "images");
   fs::create_directories(unfinished.folder / "labels");
+  if (wanted.with_crisp) fs::create_directories(unfinished.folder / "crisp");
   Grounds grounds;
   cv::Mat picture;
   std::string objects = "picture,kind,centre_x_px,centre_y_px,width_px,height_px,visible_fraction,tilt_deg\n";
-  for (int index = 0; index < count; ++index) {
+  for (int index = 0; index < wanted.count; ++index) {
     std::ostringstream name;
     name << std::setw(5) << std::setfill('0') << index;
-    const Shot shot = random_shot(seed, index, set);
+    const Shot shot = random_shot(wanted.seed, index, wanted.set);
     write_shot(shot, grounds, unfinished.folder, name.str(), picture);
+    if (wanted.with_crisp)
+      write_crisp(shot, grounds, unfinished.folder / "crisp" / (name.str() + ".png"), picture);
     objects += object_lines(shot, name.str());
     if (!progress(index + 1)) return false;
   }

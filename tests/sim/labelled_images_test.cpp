@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -35,8 +37,8 @@ class LabelledImages : public ::testing::Test {
 const auto kGoOn = [](int) { return true; };
 
 TEST_F(LabelledImages, AreTheSameForTheSameSeed) {
-  ASSERT_TRUE(write_labelled_images(2, 3, ImageSet::kTraining, folder_ / "a", kGoOn));
-  ASSERT_TRUE(write_labelled_images(2, 3, ImageSet::kTraining, folder_ / "b", kGoOn));
+  ASSERT_TRUE(write_labelled_images({2, 3}, folder_ / "a", kGoOn));
+  ASSERT_TRUE(write_labelled_images({2, 3}, folder_ / "b", kGoOn));
   for (const char* const file :
        {"images/00000.jpg", "images/00001.jpg", "labels/00000.txt", "labels/00001.txt"}) {
     ASSERT_TRUE(fs::exists(folder_ / "a" / file));
@@ -45,7 +47,7 @@ TEST_F(LabelledImages, AreTheSameForTheSameSeed) {
 }
 
 TEST_F(LabelledImages, CarryTheLabelsOfTheirShots) {
-  ASSERT_TRUE(write_labelled_images(1, 4, ImageSet::kTraining, folder_ / "set", kGoOn));
+  ASSERT_TRUE(write_labelled_images({1, 4}, folder_ / "set", kGoOn));
   const auto labels = labels_of(random_shot(4, 0));
   std::ifstream file(folder_ / "set/labels/00000.txt");
   for (const VisibleBox& label : labels) {
@@ -63,7 +65,7 @@ TEST_F(LabelledImages, CarryTheLabelsOfTheirShots) {
 }
 
 TEST_F(LabelledImages, ListEveryObjectInView) {
-  ASSERT_TRUE(write_labelled_images(1, 4, ImageSet::kTraining, folder_ / "set", kGoOn));
+  ASSERT_TRUE(write_labelled_images({1, 4}, folder_ / "set", kGoOn));
   const Shot shot = random_shot(4, 0);
   const CameraModel camera(shot.intrinsics);
   std::ifstream file(folder_ / "set/objects.csv");
@@ -80,15 +82,28 @@ TEST_F(LabelledImages, ListEveryObjectInView) {
   EXPECT_FALSE(std::getline(file, line));
 }
 
+TEST_F(LabelledImages, AreTheSameWithCrispOnesBesideThem) {
+  ASSERT_TRUE(write_labelled_images({1, 4}, folder_ / "plain", kGoOn));
+  ASSERT_TRUE(write_labelled_images({1, 4, ImageSet::kTraining, true}, folder_ / "set", kGoOn));
+  EXPECT_EQ(content(folder_ / "plain/images/00000.jpg"), content(folder_ / "set/images/00000.jpg"));
+  const cv::Mat picture = cv::imread(folder_ / "set/images/00000.jpg", cv::IMREAD_GRAYSCALE);
+  const cv::Mat crisp = cv::imread(folder_ / "set/crisp/00000.png", cv::IMREAD_UNCHANGED);
+  ASSERT_EQ(crisp.size(), picture.size());
+  ASSERT_EQ(crisp.type(), CV_8UC1);
+  cv::Mat correlation;
+  cv::matchTemplate(picture, crisp, correlation, cv::TM_CCOEFF_NORMED);
+  EXPECT_GT(correlation.at<float>(0, 0), 0.8F);
+  EXPECT_FALSE(fs::exists(folder_ / "plain/crisp"));
+}
+
 TEST_F(LabelledImages, LeaveNothingBehindWhenInterrupted) {
-  EXPECT_FALSE(
-      write_labelled_images(5, 1, ImageSet::kTraining, folder_ / "set", [](int done) { return done < 1; }));
+  EXPECT_FALSE(write_labelled_images({5, 1}, folder_ / "set", [](int done) { return done < 1; }));
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 TEST_F(LabelledImages, NeverTouchAFolderThatExists) {
   fs::create_directory(folder_ / "set");
-  EXPECT_THROW(write_labelled_images(1, 1, ImageSet::kTraining, folder_ / "set", kGoOn), std::runtime_error);
+  EXPECT_THROW(write_labelled_images({1, 1}, folder_ / "set", kGoOn), std::runtime_error);
   EXPECT_TRUE(fs::is_empty(folder_ / "set"));
 }
 

@@ -17,6 +17,8 @@ INPUT_HEIGHT = 736
 FILL = 114  # grey of the letterbox' bars
 LEAST_VISIBLE = 0.5  # of a target that is to be found
 STEEPEST_DEG = 60.0  # from the vertical; targets seen from flatter are taught, but not demanded
+LEAST_LEGIBLE = 0.5  # correlation of what a target looks like with what it would in a camera that adds nothing
+LEGIBLE_IN = 1.2  # boxes around it
 LEAST_SIDE_PX = 8.0  # of its box; smaller ones are neither taught nor held against the network
 
 
@@ -27,13 +29,14 @@ class Example:
     is_taught: np.ndarray  # K: is an example; the others are neither right nor wrong
     visible: np.ndarray  # K: share of the target that is in the picture and uncovered
     tilt_deg: np.ndarray  # K: of the line of sight from the vertical
+    legible: np.ndarray  # K: correlation with what a camera would show that adds nothing; 1 where that is not known
     look_alikes: np.ndarray  # M x 4, as the targets
     kinds: list[str]  # M: what they are
 
     @property
     def is_demanded(self) -> np.ndarray:
         """K: is to be found; the others are neither demanded nor counted."""
-        return self.is_taught & (self.tilt_deg <= STEEPEST_DEG)
+        return self.is_taught & (self.tilt_deg <= STEEPEST_DEG) & (self.legible >= LEAST_LEGIBLE)
 
 
 def letterbox(image: np.ndarray, input_width: int, input_height: int) -> tuple[np.ndarray, float, int, int]:
@@ -65,7 +68,7 @@ def filmed(folder: Path, names: list[str]) -> np.ndarray:
     return np.load(cache, mmap_mode="r")
 
 
-def example_of(image: np.ndarray, rows: list[dict[str, str]]) -> Example:
+def example_of(image: np.ndarray, crisp: np.ndarray | None, rows: list[dict[str, str]]) -> Example:
     columns = ("centre_x_px", "centre_y_px", "width_px", "height_px", "visible_fraction", "tilt_deg")
     values = np.array([[float(row[name]) for name in columns] for row in rows], np.float32).reshape(-1, 6)
     is_target = np.array([row["kind"] == "target" for row in rows], bool)
@@ -76,9 +79,24 @@ def example_of(image: np.ndarray, rows: list[dict[str, str]]) -> Example:
         taught(targets[:, :4], targets[:, 4], image.shape[1], image.shape[0]),
         targets[:, 4],
         targets[:, 5],
+        np.ones(len(targets)) if crisp is None else legibility(image, crisp, targets[:, :4]),
         values[~is_target, :4],
         [row["kind"] for row in rows if row["kind"] != "target"],
     )
+
+
+def legibility(image: np.ndarray, crisp: np.ndarray, targets: np.ndarray) -> np.ndarray:
+    """Correlation of brightness with the crisp picture [H, W], around each target [K, 4]: -1 to 1."""
+    grey = cv2.cvtColor(np.ascontiguousarray(image), cv2.COLOR_RGB2GRAY)
+    reach = 0.5 * LEGIBLE_IN * targets[:, 2:]
+    low = np.floor(targets[:, :2] - reach).clip(0, (grey.shape[1] - 1, grey.shape[0] - 1)).astype(int)
+    high = np.ceil(targets[:, :2] + reach).clip(low + 1, (grey.shape[1], grey.shape[0])).astype(int)
+    values = []
+    for (left, top), (right, bottom) in zip(low, high):
+        shown, there = (picture[top:bottom, left:right].ravel().astype(float) for picture in (grey, crisp))
+        spread = shown.std() * there.std()
+        values.append(np.mean((shown - shown.mean()) * (there - there.mean())) / spread if spread > 0 else 0.0)
+    return np.array(values)
 
 
 def taught(targets: np.ndarray, visible: np.ndarray, width: int, height: int) -> np.ndarray:
@@ -94,4 +112,9 @@ def load(folder: Path) -> list[Example]:
     with open(folder / "objects.csv", newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
             rows[row["picture"]].append(row)
-    return [example_of(image, rows[name]) for image, name in zip(filmed(folder, names), names)]
+    return [
+        example_of(image, cv2.imread(str(folder / "crisp" / f"{name}.png"), cv2.IMREAD_GRAYSCALE), rows[name])
+        if (folder / "crisp").is_dir()
+        else example_of(image, None, rows[name])
+        for image, name in zip(filmed(folder, names), names)
+    ]

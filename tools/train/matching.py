@@ -102,12 +102,13 @@ def detect_twice(network: Network, second_look: SecondLook, image: np.ndarray) -
     return boxes[kept], scores[kept], (answers[order, 5] * squares[order, 2])[kept]
 
 
-def match(detector: Detector, examples: list[Example]) -> list[Found]:
+def match(answers: list[Boxes], examples: list[Example]) -> list[Found]:
+    """What a detector answered for each of the pictures, against what is there."""
     found = []
-    for picture, example in enumerate(examples):
+    for picture, (answer, example) in enumerate(zip(answers, examples)):
         free = np.ones(len(example.targets), bool)
         targets = clipped(example.targets, *example.image.shape[1::-1])
-        for box, confidence, sigma in zip(*detector(example.image)):
+        for box, confidence, sigma in zip(*answer):
             target, counts = -1, True
             overlaps = np.where(free, overlap(box, targets), 0.0)
             if len(overlaps) and overlaps.max() >= MATCH_OVERLAP:

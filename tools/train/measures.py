@@ -60,6 +60,7 @@ class CentreErrors:
     box_size: np.ndarray  # M: root of the area of the box that was found
     tilt_deg: np.ndarray  # M
     visible: np.ndarray  # M
+    stated: np.ndarray  # M: sigma as the detector states it [px], NaN: not
 
     def where(self, chosen: np.ndarray) -> "CentreErrors":
         return CentreErrors(*(values[chosen] for values in vars(self).values()))
@@ -88,6 +89,7 @@ def centre_errors(found: list[Found], examples: list[Example], threshold: float)
         np.sqrt(boxes[:, 2:].prod(1)),
         np.array([examples[one.picture].tilt_deg[one.target] for one in right]),
         np.array([examples[one.picture].visible[one.target] for one in right]),
+        np.array([one.sigma_px for one in right]),
     )
 
 

@@ -59,7 +59,7 @@ def found_by(model: TargetDetector, examples: list[Example]) -> list[Found]:
             return torch.cat((decode(boxes, *cells(*image.shape[:2])), scores.sigmoid()), 1)[0].numpy()
 
     network = Network(INPUT_WIDTH, INPUT_HEIGHT, run)
-    return match(lambda image: detect(network, image), examples)
+    return match([detect(network, example.image) for example in examples], examples)
 
 
 def report(found: list[Found], examples: list[Example]) -> str:

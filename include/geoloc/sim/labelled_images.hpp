@@ -38,13 +38,22 @@ Shot random_shot(std::uint64_t seed, int index, ImageSet set = ImageSet::kTraini
 std::vector<VisibleBox> labels_of(const Shot& shot);
 inline constexpr double kLabelledFraction = 0.4;
 
+/// What to write.
+struct LabelledImages {
+  int count = 0;
+  std::uint64_t seed = 1;
+  ImageSet set = ImageSet::kTraining;
+  bool with_crisp =
+      false;  ///< also folder/crisp/00000.png ...: the same in grey, by a camera that adds nothing
+};
+
 /// Writes folder/images/00000.jpg ..., folder/labels/00000.txt ... (YOLO: class, centre and size relative to
 /// the image, a line a target; the centre is the image of the target's centre, the size that of the box
 /// around its whole outline) and folder/objects.csv (all objects in view: kind, centre, size of the
 /// box, share that is seen, angle of the line of sight to the vertical). The folder must not exist; it
 /// appears whole or not at all. progress(done) is called after each picture and ends the work by returning
 /// false. Returns false where it was ended so; throws std::runtime_error where it cannot write.
-bool write_labelled_images(int count, std::uint64_t seed, ImageSet set, const std::filesystem::path& folder,
+bool write_labelled_images(const LabelledImages& wanted, const std::filesystem::path& folder,
                            const std::function<bool(int)>& progress);
 
 }  // namespace geoloc::sim
