@@ -55,6 +55,7 @@ FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint
   is_in_doubt_.reserve(tracks);
   detection_probability_of_track_.reserve(tracks);
   looks_.reserve(looks);
+  matches_.reserve(looks);
   if (!config.moving.classes.empty()) {
     moving_looks_.reserve(looks);
     all_tracks_.reserve(2 * tracks);

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "geoloc/calibration/full_tracker.hpp"
 
@@ -99,7 +100,7 @@ Eigen::Vector2d FullTracker::common_shift() {
   for (int axis = 0; axis < 2; ++axis) {
     median_scratch_.clear();
     for (std::size_t i = 0; i < looks_.size(); ++i) {
-      const int track = (*matches_)[i].track;
+      const int track = matches_[i].track;
       if (track == JointAssociation::kNone) continue;
       median_scratch_.push_back(looks_[i].position[axis] -
                                 tracks_[static_cast<std::size_t>(track)].position_in_enu.mean[axis]);
@@ -109,25 +110,77 @@ Eigen::Vector2d FullTracker::common_shift() {
   return shift;
 }
 
+/// A look that may show either of two tracks, which no other look of the frame can show and no frame has
+/// shown side by side, shows one object that was begun twice: the look is the older one's, and the younger
+/// one dies of being missed. Otherwise both would be in doubt for ever, and learn nothing.
+void FullTracker::prefer_older_twins() {
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
+    if (!matches_[i].is_ambiguous) continue;
+    const Pairing* const oldest = oldest_twin(i);
+    if (oldest == nullptr) continue;
+    matches_[i].track = oldest->track;
+    matches_[i].is_ambiguous = false;
+    matches_[i].innovation = oldest->residual;
+    matches_[i].innovation_covariance =
+        oldest->own_covariance + oldest->jacobian * oldest->jacobian.transpose();
+  }
+}
+
+/// Among the pairs of this look; none where they are not twins.
+const Pairing* FullTracker::oldest_twin(std::size_t look) const {
+  const Pairing* oldest = nullptr;
+  int twins = 0;
+  for (const Pairing& pairing : association_.pairings()) {
+    if (pairing.look != static_cast<int>(look)) continue;
+    ++twins;
+    if (oldest == nullptr || is_older(pairing.track, oldest->track)) oldest = &pairing;
+  }
+  if (twins < 2) return nullptr;
+  const Neighbours& neighbours = estimates_[static_cast<std::size_t>(oldest->track)].neighbours;
+  for (const Pairing& pairing : association_.pairings()) {
+    const Track& track = tracks_[static_cast<std::size_t>(pairing.track)];
+    if (pairing.look != static_cast<int>(look)) {
+      if (is_paired(look, pairing.track)) return nullptr;
+    } else if (pairing.track != oldest->track && (track.hits > 1 || neighbours.are_apart(track.id))) {
+      return nullptr;
+    }
+  }
+  return oldest;
+}
+
+bool FullTracker::is_older(int track, int other) const {
+  const Track &a = tracks_[static_cast<std::size_t>(track)], &b = tracks_[static_cast<std::size_t>(other)];
+  return std::make_tuple(a.status == TrackStatus::kConfirmed, a.hits, b.id) >
+         std::make_tuple(b.status == TrackStatus::kConfirmed, b.hits, a.id);
+}
+
+bool FullTracker::is_paired(std::size_t look, int track) const {
+  const std::vector<Pairing>& pairings = association_.pairings();
+  return std::any_of(pairings.begin(), pairings.end(), [&](const Pairing& pairing) {
+    return pairing.look == static_cast<int>(look) && pairing.track == track;
+  });
+}
+
 void FullTracker::associate() {
   association_.begin(looks_.size(), config_.gate, config_.ambiguity);
   add_pairings();
-  matches_ = &association_.solve();
+  matches_ = association_.solve();
+  prefer_older_twins();
   shift_ = common_shift();
   look_of_track_.assign(tracks_.size(), JointAssociation::kNone);
   is_in_doubt_.assign(tracks_.size(), false);
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if (is_matched(i)) look_of_track_[static_cast<std::size_t>((*matches_)[i].track)] = static_cast<int>(i);
+    if (is_matched(i)) look_of_track_[static_cast<std::size_t>(matches_[i].track)] = static_cast<int>(i);
   }
   for (const Pairing& pairing : association_.pairings()) {
-    if ((*matches_)[static_cast<std::size_t>(pairing.look)].is_ambiguous)
+    if (matches_[static_cast<std::size_t>(pairing.look)].is_ambiguous)
       is_in_doubt_[static_cast<std::size_t>(pairing.track)] = true;
   }
 }
 
 /// Whether the look shows a track, and no other may be meant.
 bool FullTracker::is_matched(std::size_t look) const {
-  const JointAssociation::Match& match = (*matches_)[look];
+  const JointAssociation::Match& match = matches_[look];
   return match.track != JointAssociation::kNone && !match.is_ambiguous;
 }
 

@@ -56,7 +56,7 @@ bool FullTracker::is_drawn_aside(std::size_t track, std::size_t younger) const {
 /// it begins anew from them, since the sums do not tell which look showed which.
 void FullTracker::split_if_mixed(std::size_t track, std::size_t younger) {
   const auto look_index = static_cast<std::size_t>(look_of_track_[track]);
-  const JointAssociation::Match& match = (*matches_)[look_index];
+  const JointAssociation::Match& match = matches_[look_index];
   Estimate& estimate = estimates_[track];
   if (match.track == JointAssociation::kNone || estimate.is_known) return;
   const Look& look = looks_[look_index];

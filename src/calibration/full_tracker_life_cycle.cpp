@@ -39,6 +39,22 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
          counted_detection_probability();
 }
 
+/// A younger track that may be the same object has this frame's look: begun when the vehicle came back with
+/// another drift, it would outlive the older one, and all that this one knows.
+bool FullTracker::is_seen_as_another(std::size_t k) const {
+  if (tracks_[k].status != TrackStatus::kConfirmed) return false;
+  for (std::size_t other = 0; other < tracks_.size(); ++other) {
+    if (!is_seen(other) || tracks_[other].id <= tracks_[k].id || tracks_[other].hits > kHitsToCompare)
+      continue;
+    const Eigen::Vector2d apart = tracks_[other].position_in_enu.mean - tracks_[k].position_in_enu.mean;
+    if (apart.squaredNorm() < config_.merge_radius_m * config_.merge_radius_m &&
+        !estimates_[k].neighbours.are_apart(tracks_[other].id)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
   detection_probability_of_track_.assign(tracks_.size(), 0.0);
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
@@ -48,6 +64,7 @@ void FullTracker::weigh_missed(const Projector& projector, const FrameView& view
     const double probability = detection_probability(k, projector, view);
     if (probability <= 0.0) continue;
     detection_probability_of_track_[k] = probability;
+    if (!is_seen_now && is_seen_as_another(k)) continue;
     if (!is_seen_now) {
       estimates_[k].existence.miss(probability);
       ++tracks_[k].penalty;
@@ -106,7 +123,7 @@ void FullTracker::absorb_matched(HostTime captured_at) {
   const double found = counted_detection_probability();
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (!is_matched(i)) continue;
-    const JointAssociation::Match& match = (*matches_)[i];
+    const JointAssociation::Match& match = matches_[i];
     const auto k = static_cast<std::size_t>(match.track);
     estimates_[k].existence.hit(found, density(match.innovation, match.innovation_covariance),
                                 looks_[i].clutter_density);
@@ -120,7 +137,7 @@ void FullTracker::absorb_matched(HostTime captured_at) {
 
 void FullTracker::start_tentative(HostTime captured_at) {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    if ((*matches_)[i].track != JointAssociation::kNone) continue;
+    if (matches_[i].track != JointAssociation::kNone) continue;
     if (tracks_.size() >= static_cast<std::size_t>(config_.max_tracks)) {
       ++book_.counters.refused;
       continue;

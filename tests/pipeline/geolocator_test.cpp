@@ -125,6 +125,66 @@ TEST(Geolocator, KeepsTwoObjectsHalfAMetreApartWhereBothWereSeenAtOnce) {
   }
 }
 
+/// One object of the grid, by a detector that knows centres to 0.2 px; moved by `aside_m` from then on.
+FrameDetections with_one_object(Flight& flight, double time_s, double aside_m) {
+  FrameDetections frame = flight.frame(time_s);
+  const std::vector<Detection> grid = std::exchange(frame.detections, {});
+  const auto view = enu_from_camera(*flight.geolocator().state().at(frame.captured_at), CameraMount{},
+                                    CameraOrientation::kComposed);
+  const auto pixel = flight.geolocator().projector().reproject({aside_m, 40.0}, view);
+  const Eigen::Vector2d nominal{0.0, 40.0};
+  for (const Detection& detection : grid) {
+    const auto fix = flight.geolocator().projector().project(detection.box.centre(), view);
+    if ((fix->position_in_enu - nominal).norm() > 1.0 || !pixel) continue;
+    frame.detections.push_back({{pixel->x() + 0.5 - 18, pixel->y() + 0.5 - 18, 36, 36}, 0.9, 0, 0.2});
+  }
+  return frame;
+}
+
+/// A jump in the vehicle's position estimate moves all that is seen: what was there before is still there.
+TEST(Geolocator, KeepsAnObjectThatAJumpOfTheVehiclesPositionMovesAside) {
+  for (const double aside_m : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
+    Flight flight;
+    std::size_t looks = 0;
+    for (double time_s = 4.0; time_s < 12.0; time_s += 0.1) {
+      const FrameDetections frame = with_one_object(flight, time_s, time_s < 8.0 ? 0.0 : aside_m);
+      looks += frame.detections.size();
+      flight.geolocator().process(frame);
+    }
+    ASSERT_GT(looks, 25U);
+    int objects = 0;
+    for (const Track& track : flight.geolocator().tracks()) {
+      if (track.status != TrackStatus::kConfirmed) continue;
+      ++objects;
+      EXPECT_GT(track.hits, static_cast<int>(looks) - 6) << aside_m;
+    }
+    EXPECT_EQ(objects, 1) << aside_m;
+  }
+}
+
+/// The vehicle's position is noisier than the detector: lone looks at one object scatter, and some begin
+/// another.
+TEST(Geolocator, MakesOneObjectOfLooksThatScatterMoreThanTheirSigma) {
+  for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U}) {
+    Flight flight;
+    std::mt19937 random(seed);
+    std::normal_distribution<double> aside_m(0.0, 0.1);
+    std::size_t looks = 0;
+    for (double time_s = 4.0; time_s < 12.0; time_s += 0.1) {
+      const FrameDetections frame = with_one_object(flight, time_s, aside_m(random));
+      looks += frame.detections.size();
+      flight.geolocator().process(frame);
+    }
+    int objects = 0;
+    for (const Track& track : flight.geolocator().tracks()) {
+      if (track.status != TrackStatus::kConfirmed) continue;
+      ++objects;
+      EXPECT_GT(track.hits, static_cast<int>(looks) - 6) << seed;
+    }
+    EXPECT_EQ(objects, 1) << seed;
+  }
+}
+
 Eigen::Vector2d offset_of_pair(double north_m, double apart_m) {
   const double direction = std::round(north_m / 8.0);  // [rad]
   return apart_m * Eigen::Vector2d(std::cos(direction), std::sin(direction));

@@ -93,7 +93,12 @@ class FullTracker {
   SharedError::Row whitened(const SharedError::CalibrationRow& by_calibration,
                             const Eigen::Matrix<double, 2, kNodeSize>& by_drift) const;
   void find_roots();
+  void prefer_older_twins();
+  const Pairing* oldest_twin(std::size_t look) const;
+  bool is_older(int track, int other) const;
+  bool is_paired(std::size_t look, int track) const;
   bool is_matched(std::size_t look) const;
+  bool is_seen_as_another(std::size_t track) const;
   bool is_seen(std::size_t track) const { return look_of_track_[track] != JointAssociation::kNone; }
   Eigen::Vector2d common_shift();
   void absorb_matched(HostTime captured_at);
@@ -157,10 +162,10 @@ class FullTracker {
   Eigen::Matrix2d frame_noise_ = Eigen::Matrix2d::Zero();  // of attitude and position, shared by the looks
   Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();
   JointAssociation association_;
-  const std::vector<JointAssociation::Match>* matches_ = nullptr;  // of the looks
-  std::vector<int> look_of_track_;                                 // kNone: not seen in this frame
-  std::vector<char> is_in_doubt_;                                  // perhaps seen: no conclusion
-  std::vector<double> detection_probability_of_track_;             // of the tracks this frame should show
+  std::vector<JointAssociation::Match> matches_;        // of the looks
+  std::vector<int> look_of_track_;                      // kNone: not seen in this frame
+  std::vector<char> is_in_doubt_;                       // perhaps seen: no conclusion
+  std::vector<double> detection_probability_of_track_;  // of the tracks this frame should show
   std::vector<double> median_scratch_;
   std::vector<Reach> reach_of_track_;  // scratch of add_pairings
 

@@ -14,7 +14,7 @@
 namespace geoloc::io {
 namespace {
 
-constexpr double kTarget_px = 20.0;
+constexpr double kTarget_px = 12.0;
 
 struct LargePicture {
   cv::Mat bgr;
@@ -50,11 +50,10 @@ std::size_t found(const LargePicture& picture, const DetectionConfig& config) {
   return matched;
 }
 
-TEST(LargePicture, ShowsTargetsOf20PxInItsTilesAndNotAsAWhole) {
+TEST(LargePicture, ShowsTargetsOf12PxInItsTilesAndNotAsAWhole) {
   const LargePicture picture = make_large_picture();
   ASSERT_EQ(picture.targets.size(), 5U);
   DetectionConfig config;
-  config.confidence = 0.45;  // the model is unsure of small targets (docs/model.md)
   EXPECT_LT(found(picture, config), 5U);
   config.tile_columns = 3;
   config.tile_rows = 3;
