@@ -14,7 +14,7 @@ import onnxruntime
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/train"))
 from patches import boxes_of, cut, normalised, resized, squares_around  # noqa: E402
 
-CONFIDENCE, OVERLAP = 0.6, 0.5  # geoloc's defaults
+CONFIDENCE, OVERLAP = 0.8, 0.5  # geoloc's defaults
 PROPOSED, MOST_PROPOSED = 0.1, 40  # likewise, of models with a second look
 
 

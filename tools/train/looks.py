@@ -8,7 +8,7 @@ import numpy as np
 from tqdm import tqdm
 
 from crops import recoloured
-from dataset import Example
+from dataset import LEAST_LEGIBLE, Example
 from matching import PROPOSED, Network, clipped, detect, hidden, overlap
 from patches import PATCH_PX, answers_for, cut, normalised, resized, squares_around
 
@@ -25,9 +25,9 @@ GROUND_SIDES_PX = (8.0, 100.0)
 MOST_PIXELS = 128  # sides of squares that are shrunk before they are degraded
 NOISE = 5.0  # grey levels, at most
 SHARE_COARSE = 0.3  # of the patches, shown as if from farther away,
-COARSEST_PX = 14  # down to this side
+COARSEST_PX = 20  # down to this side
 SHARE_COMPRESSED = 0.15
-JPEG_QUALITY = (15, 60)
+JPEG_QUALITY = (25, 70)
 
 
 @dataclass
@@ -58,7 +58,7 @@ def proposed(network: Network, examples: list[Example]) -> list[np.ndarray]:
 def collect(examples: list[Example], proposals: list[np.ndarray]) -> Looks:
     looks = Looks([], [], [])
     for picture, (example, boxes) in enumerate(zip(examples, proposals)):
-        taught = example.targets[example.is_taught]
+        taught = example.targets[example.is_taught & (example.legible >= LEAST_LEGIBLE)]
         looks.targets += [Look(picture, box, box) for box in taught]
         for box in boxes:
             overlaps = overlap(box, taught) if len(taught) else np.zeros(1)

@@ -9,12 +9,12 @@ OUT=${1:-out/model}
 mkdir -p "$OUT"
 [ -d "$OUT/venv" ] || { python3 -m venv "$OUT/venv" && "$OUT/venv/bin/pip" install -q -r tools/train/requirements.txt; }
 
-pictures() { # name count seed grounds [option…]
-  [ -d "$OUT/$1" ] || build/release/bin/geoloc_sim --images "$2" --seed "$3" --grounds "$4" --out "$OUT/$1" "${@:5}"
+pictures() { # name count seed grounds
+  [ -d "$OUT/$1" ] || build/release/bin/geoloc_sim --images "$2" --seed "$3" --grounds "$4" --crisp --out "$OUT/$1"
 }
 for seed in 1 2 3 4; do pictures "train_$seed" 1300 "$seed" train; done
 pictures validation 160 501 train
-pictures held_back 300 9001 held-back --crisp
+pictures held_back 300 9001 held-back
 
 export OMP_WAIT_POLICY=passive  # threads that spin while they wait take a busy machine's time from each other
 BFLOAT16=$(grep -qm1 avx512_bf16 /proc/cpuinfo && echo --bfloat16 || true)

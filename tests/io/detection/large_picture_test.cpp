@@ -14,7 +14,7 @@
 namespace geoloc::io {
 namespace {
 
-constexpr double kTarget_px = 12.0;
+constexpr double kTarget_px = 10.0;
 
 struct LargePicture {
   cv::Mat bgr;
@@ -50,7 +50,7 @@ std::size_t found(const LargePicture& picture, const DetectionConfig& config) {
   return matched;
 }
 
-TEST(LargePicture, ShowsTargetsOf12PxInItsTilesAndNotAsAWhole) {
+TEST(LargePicture, ShowsTargetsOf10PxInItsTilesAndNotAsAWhole) {
   const LargePicture picture = make_large_picture();
   ASSERT_EQ(picture.targets.size(), 5U);
   DetectionConfig config;

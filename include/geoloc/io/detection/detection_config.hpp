@@ -22,7 +22,7 @@ struct SecondLookConfig {
 
 /// "detection" in the configuration file.
 struct DetectionConfig {
-  double confidence = 0.60;  ///< boxes with a lower score are dropped
+  double confidence = 0.80;  ///< boxes with a lower score are dropped
   double nms_iou = 0.5;      ///< of two boxes of a class that overlap more, the less confident one is dropped
   int max_detections = 300;  ///< in a picture
   int threads = 0;           ///< of the back end; OpenCV's are the whole program's; 0: all cores
