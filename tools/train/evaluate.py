@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The figures of docs/model.md: chooses the confidence threshold on the validation set, then measures on the held-back
-set. Prints tables in Markdown, and writes precision_recall.svg and failures.jpg."""
+"""The figures of docs/model.md, for the validation set and the held-back one. Prints tables in Markdown, and writes
+precision_recall.svg and failures.jpg."""
 
 import argparse
 from dataclasses import replace
@@ -16,7 +16,6 @@ from matching import Boxes, Detector, Found, detect, detect_twice, match
 from measures import SIZES_PX, WHOLE, CentreErrors, centre_errors, curve, demanded, fit_sigma
 from onnx_model import load_network, load_second_look
 
-THRESHOLDS = np.arange(0.20, 0.96, 0.05)
 TABLE_THRESHOLDS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
 SIDE_CLASSES = ((10, 16), (16, 20), (20, 40), (40, 60), (60, 100), (100, 200))
 TILT_CLASSES = ((0, 20), (20, 40), (40, 60))
@@ -25,14 +24,6 @@ LEAST_COUNT = 20  # a cell of a table with fewer boxes stays empty
 
 def name_of(size: tuple[float, float]) -> str:
     return f"{size[0]:.0f} px and up" if np.isinf(size[1]) else f"{size[0]:.0f} to {size[1]:.0f} px"
-
-
-def choose_threshold(found: list[Found], examples: list[Example]) -> float:
-    """Where F0.5 of the larger targets is highest: a miss is made good by the next frame, a look-alike is not."""
-    larger = curve(found, examples, SIZES_PX[-1])
-    recall, precision = np.array([larger.at(threshold) for threshold in THRESHOLDS]).T
-    score = 1.25 * precision * recall / np.maximum(0.25 * precision + recall, 1e-9)
-    return round(float(THRESHOLDS[int(np.argmax(score))]), 2)
 
 
 def quality_table(found: list[Found], examples: list[Example], thresholds: list[float]) -> list[str]:
@@ -123,24 +114,26 @@ def main() -> None:
     arguments.add_argument("--validation", type=Path, required=True)
     arguments.add_argument("--held-back", type=Path, required=True)
     arguments.add_argument("--figures", type=Path, help="folder for the pictures")
+    arguments.add_argument(
+        "--confidence", type=float, default=0.8, help="of the pictures and centres; detection.confidence [0.8]"
+    )
     arguments.add_argument("--alone", action="store_true", help="without the second look")
     options = arguments.parse_args()
     detector = open_detector(options.model, options.alone)
     validation, held_back = load(options.validation), load(options.held_back)
     found = match(answers_to(detector, validation, "validation"), validation)
-    threshold = choose_threshold(found, validation)
-    print(f"confidence chosen on the validation set: {threshold:.2f}")
+    threshold = options.confidence
+    thresholds = sorted({*TABLE_THRESHOLDS, threshold})
     print(
-        "centre sigma fitted there: hypot({:.4f}, {:.4f} * size)".format(
+        "centre sigma fitted to the validation set: hypot({:.4f}, {:.4f} * size)".format(
             *(fit_sigma(centre_errors(found, validation, threshold)) or (np.nan, np.nan))
         )
     )
     print(f"stored in the model: {metadata(options.model).get('geoloc_centre_sigma_px', 'nothing')}\n")
-    print("\n".join(quality_table(found, validation, [threshold])), "\n")
+    print("\n".join(quality_table(found, validation, thresholds)), "\n")
 
     answers = answers_to(detector, held_back, "held back")
     found = match(answers, held_back)
-    thresholds = sorted({*TABLE_THRESHOLDS, threshold})
     print("\n".join(quality_table(found, held_back, thresholds)), "\n")
     everything = [replace(example, legible=np.ones(len(example.targets))) for example in held_back]
     print("With those that are not legible any more:\n")
