@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/results.sh: makes the figures and pictures of docs/results.md anew: every flight, every sweep, and three runs with
+# scripts/results.sh: makes the figures and pictures of docs/results.md anew: every flight, every sweep, and nine runs with
 # rendered pictures. Takes about ten minutes on two cores. The sentences there are written by hand: read them afterwards.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
@@ -18,14 +18,27 @@ say "Building"
 cmake --build build/release --target geoloc_eval
 say "Evaluating"
 rm -rf build/results
-build/release/bin/geoloc_eval --known-points 2 --sweep all --rendered --report build/results >/dev/null
+build/release/bin/geoloc_eval --known-points 2 --sweep all --report build/results >/dev/null
+for flight in stock_path1 stock_path2 stock_path3; do
+  build/release/bin/geoloc_eval --flights none --seeds 0 --method full --rendered --rendered-flight "$flight" \
+    --report "build/results/$flight" >/dev/null
+done
 
 say "Writing docs/results.md"
-python3 - build/results/report.md docs/results.md <<'PYTHON'
+python3 - build/results docs/results.md <<'PYTHON'
 import pathlib, re, sys
 
-report, page = (pathlib.Path(name) for name in sys.argv[1:])
-blocks = dict(re.findall(r"<!-- begin (\w+) -->\n(.*?)<!-- end \1 -->\n", report.read_text(), re.DOTALL))
+folder, page = (pathlib.Path(name) for name in sys.argv[1:])
+
+
+def blocks_of(report):
+    return dict(re.findall(r"<!-- begin (\w+) -->\n(.*?)<!-- end \1 -->\n", report.read_text(), re.DOTALL))
+
+
+blocks = blocks_of(folder / "report.md")
+rendered = [blocks_of(report)["rendered"] for report in sorted(folder.glob("*/report.md"))]
+head = rendered[0].splitlines(keepends=True)[:2]
+blocks["rendered"] = "".join(head + [row for block in rendered for row in block.splitlines(keepends=True)[2:]])
 text, filled = re.subn(r"(<!-- begin (\w+) -->\n).*?(<!-- end \2 -->\n)",
                        lambda found: found[1] + blocks.pop(found[2]) + found[3], page.read_text(), flags=re.DOTALL)
 if blocks or not filled:

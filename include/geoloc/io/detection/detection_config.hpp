@@ -17,7 +17,7 @@ inline constexpr int kLongestInput_px = 8192;
 /// "detection.second_look": which boxes are looked at once more, by models that have a network for that.
 struct SecondLookConfig {
   double confidence = 0.1;  ///< of the first look, from which on
-  int max_boxes = 40;        ///< in a picture, the most confident ones: a limit on the time it takes
+  int max_boxes = 40;       ///< in a picture, the most confident ones: a limit on the time it takes
 };
 
 /// "detection" in the configuration file.
