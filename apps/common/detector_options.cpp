@@ -31,9 +31,8 @@ io::DetectorFiles detector_files(const DetectorOptions& options) {
   files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
                                            : std::filesystem::path(options.model_file);
   if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
-  if (options.second_look_file == "none") files.second_look = std::filesystem::path{};
-  if (!options.second_look_file.empty() && options.second_look_file != "none")
-    files.second_look = options.second_look_file;
+  if (!options.second_look_file.empty())
+    files.second_look = options.second_look_file == "none" ? "" : options.second_look_file;
   return files;
 }
 

@@ -116,49 +116,35 @@ Eigen::Vector2d FullTracker::common_shift() {
 void FullTracker::prefer_older_twins() {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (!matches_[i].is_ambiguous) continue;
-    const Pairing* const oldest = oldest_twin(i);
-    if (oldest == nullptr) continue;
-    matches_[i].track = oldest->track;
-    matches_[i].is_ambiguous = false;
-    matches_[i].innovation = oldest->residual;
-    matches_[i].innovation_covariance =
-        oldest->own_covariance + oldest->jacobian * oldest->jacobian.transpose();
+    if (const Pairing* const oldest = oldest_twin(i)) matches_[i] = JointAssociation::match_of(*oldest);
   }
 }
 
 /// Among the pairs of this look; none where they are not twins.
 const Pairing* FullTracker::oldest_twin(std::size_t look) const {
+  const auto is_of_look = [&](const Pairing& pairing) { return pairing.look == static_cast<int>(look); };
   const Pairing* oldest = nullptr;
-  int twins = 0;
   for (const Pairing& pairing : association_.pairings()) {
-    if (pairing.look != static_cast<int>(look)) continue;
-    ++twins;
+    if (!is_of_look(pairing)) continue;
+    if (association_.looks_at(pairing.track) > 1) return nullptr;
     if (oldest == nullptr || is_older(pairing.track, oldest->track)) oldest = &pairing;
   }
-  if (twins < 2) return nullptr;
+  if (oldest == nullptr) return nullptr;
+  int twins = 0;
   const Neighbours& neighbours = estimates_[static_cast<std::size_t>(oldest->track)].neighbours;
   for (const Pairing& pairing : association_.pairings()) {
-    const Track& track = tracks_[static_cast<std::size_t>(pairing.track)];
-    if (pairing.look != static_cast<int>(look)) {
-      if (is_paired(look, pairing.track)) return nullptr;
-    } else if (pairing.track != oldest->track && (track.hits > 1 || neighbours.are_apart(track.id))) {
-      return nullptr;
-    }
+    if (!is_of_look(pairing) || pairing.track == oldest->track) continue;
+    const Track& twin = tracks_[static_cast<std::size_t>(pairing.track)];
+    if (twin.hits > 1 || neighbours.are_apart(twin.id)) return nullptr;
+    ++twins;
   }
-  return oldest;
+  return twins > 0 ? oldest : nullptr;
 }
 
 bool FullTracker::is_older(int track, int other) const {
   const Track &a = tracks_[static_cast<std::size_t>(track)], &b = tracks_[static_cast<std::size_t>(other)];
   return std::make_tuple(a.status == TrackStatus::kConfirmed, a.hits, b.id) >
          std::make_tuple(b.status == TrackStatus::kConfirmed, b.hits, a.id);
-}
-
-bool FullTracker::is_paired(std::size_t look, int track) const {
-  const std::vector<Pairing>& pairings = association_.pairings();
-  return std::any_of(pairings.begin(), pairings.end(), [&](const Pairing& pairing) {
-    return pairing.look == static_cast<int>(look) && pairing.track == track;
-  });
 }
 
 void FullTracker::associate() {

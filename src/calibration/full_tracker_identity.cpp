@@ -88,13 +88,18 @@ double FullTracker::noise_share(const Track& track) const {
   return std::min(1.0, noise_correlation_ / track.hits);
 }
 
-/// Perhaps one object: near each other, known well enough to tell, and never seen side by side.
-bool FullTracker::may_be_one(std::size_t a, std::size_t b) const {
+/// Near each other, and never seen side by side.
+bool FullTracker::are_not_told_apart(std::size_t a, std::size_t b) const {
   const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
   return apart.squaredNorm() <= config_.merge_radius_m * config_.merge_radius_m &&
-         !(estimates_[a].is_known && estimates_[b].is_known) &&
+         !estimates_[a].neighbours.are_apart(tracks_[b].id);
+}
+
+/// Perhaps one object: not told apart, and known well enough to tell.
+bool FullTracker::may_be_one(std::size_t a, std::size_t b) const {
+  const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
+  return are_not_told_apart(a, b) && !(estimates_[a].is_known && estimates_[b].is_known) &&
          std::min(tracks_[a].hits, tracks_[b].hits) >= kHitsToCompare &&
-         !estimates_[a].neighbours.are_apart(tracks_[b].id) &&
          mahalanobis_squared(apart, covariance_of_difference(a, b)) <= config_.merge_gate;
 }
 

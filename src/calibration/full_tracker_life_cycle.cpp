@@ -44,13 +44,8 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
 bool FullTracker::is_seen_as_another(std::size_t k) const {
   if (tracks_[k].status != TrackStatus::kConfirmed) return false;
   for (std::size_t other = 0; other < tracks_.size(); ++other) {
-    if (!is_seen(other) || tracks_[other].id <= tracks_[k].id || tracks_[other].hits > kHitsToCompare)
-      continue;
-    const Eigen::Vector2d apart = tracks_[other].position_in_enu.mean - tracks_[k].position_in_enu.mean;
-    if (apart.squaredNorm() < config_.merge_radius_m * config_.merge_radius_m &&
-        !estimates_[k].neighbours.are_apart(tracks_[other].id)) {
-      return true;
-    }
+    const bool is_young = tracks_[other].id > tracks_[k].id && tracks_[other].hits <= kHitsToCompare;
+    if (is_young && is_seen(other) && are_not_told_apart(k, other)) return true;
   }
   return false;
 }

@@ -190,15 +190,15 @@ void JointAssociation::report_best() {
   }
 }
 
+JointAssociation::Match JointAssociation::match_of(const Pairing& pairing) {
+  return {pairing.track, false, pairing.residual, prior_covariance(pairing)};
+}
+
 const std::vector<JointAssociation::Match>& JointAssociation::solve() {
   matches_.assign(pairings_of_look_.size(), Match{});
   if (is_plain()) {
-    for (const Pairing& pairing : pairings_) {
-      Match& match = matches_[static_cast<std::size_t>(pairing.look)];
-      match.track = pairing.track;
-      match.innovation = pairing.residual;
-      match.innovation_covariance = prior_covariance(pairing);
-    }
+    for (const Pairing& pairing : pairings_)
+      matches_[static_cast<std::size_t>(pairing.look)] = match_of(pairing);
     return matches_;
   }
   explain(nullptr, kNone);

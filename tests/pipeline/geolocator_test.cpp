@@ -141,24 +141,31 @@ FrameDetections with_one_object(Flight& flight, double time_s, double aside_m) {
   return frame;
 }
 
+/// A flight over that object, moved by aside_m(time): it stays one object, and nearly all looks are used.
+template <class Aside>
+void expect_one_object(Aside aside_m) {
+  Flight flight;
+  std::size_t looks = 0;
+  for (double time_s = 4.0; time_s < 12.0; time_s += 0.1) {
+    const FrameDetections frame = with_one_object(flight, time_s, aside_m(time_s));
+    looks += frame.detections.size();
+    flight.geolocator().process(frame);
+  }
+  ASSERT_GT(looks, 25U);
+  int objects = 0;
+  for (const Track& track : flight.geolocator().tracks()) {
+    if (track.status != TrackStatus::kConfirmed) continue;
+    ++objects;
+    EXPECT_GT(track.hits, static_cast<int>(looks) - 6);
+  }
+  EXPECT_EQ(objects, 1);
+}
+
 /// A jump in the vehicle's position estimate moves all that is seen: what was there before is still there.
 TEST(Geolocator, KeepsAnObjectThatAJumpOfTheVehiclesPositionMovesAside) {
   for (const double aside_m : {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8}) {
-    Flight flight;
-    std::size_t looks = 0;
-    for (double time_s = 4.0; time_s < 12.0; time_s += 0.1) {
-      const FrameDetections frame = with_one_object(flight, time_s, time_s < 8.0 ? 0.0 : aside_m);
-      looks += frame.detections.size();
-      flight.geolocator().process(frame);
-    }
-    ASSERT_GT(looks, 25U);
-    int objects = 0;
-    for (const Track& track : flight.geolocator().tracks()) {
-      if (track.status != TrackStatus::kConfirmed) continue;
-      ++objects;
-      EXPECT_GT(track.hits, static_cast<int>(looks) - 6) << aside_m;
-    }
-    EXPECT_EQ(objects, 1) << aside_m;
+    SCOPED_TRACE(aside_m);
+    expect_one_object([&](double time_s) { return time_s < 8.0 ? 0.0 : aside_m; });
   }
 }
 
@@ -166,22 +173,10 @@ TEST(Geolocator, KeepsAnObjectThatAJumpOfTheVehiclesPositionMovesAside) {
 /// another.
 TEST(Geolocator, MakesOneObjectOfLooksThatScatterMoreThanTheirSigma) {
   for (const unsigned seed : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 10U}) {
-    Flight flight;
+    SCOPED_TRACE(seed);
     std::mt19937 random(seed);
     std::normal_distribution<double> aside_m(0.0, 0.1);
-    std::size_t looks = 0;
-    for (double time_s = 4.0; time_s < 12.0; time_s += 0.1) {
-      const FrameDetections frame = with_one_object(flight, time_s, aside_m(random));
-      looks += frame.detections.size();
-      flight.geolocator().process(frame);
-    }
-    int objects = 0;
-    for (const Track& track : flight.geolocator().tracks()) {
-      if (track.status != TrackStatus::kConfirmed) continue;
-      ++objects;
-      EXPECT_GT(track.hits, static_cast<int>(looks) - 6) << seed;
-    }
-    EXPECT_EQ(objects, 1) << seed;
+    expect_one_object([&](double) { return aside_m(random); });
   }
 }
 

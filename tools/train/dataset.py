@@ -104,7 +104,14 @@ def taught(targets: np.ndarray, visible: np.ndarray, width: int, height: int) ->
     return inside & (visible >= LEAST_VISIBLE) & (targets[:, 2:].min(1) >= LEAST_SIDE_PX)
 
 
-def load(folder: Path) -> list[Example]:
+def crisp_picture(folder: Path, name: str) -> np.ndarray | None:
+    """In grey; None where the folder was made without --crisp."""
+    file = folder / "crisp" / f"{name}.png"
+    return cv2.imread(str(file), cv2.IMREAD_GRAYSCALE) if file.exists() else None
+
+
+def load(folder: Path, with_legibility: bool = True) -> list[Example]:
+    """with_legibility: takes as long as reading the crisp pictures, for those who ask which targets are legible."""
     names = sorted(file.stem for file in (folder / "images").glob("*.jpg"))
     if not names:
         raise SystemExit(f"{folder}: no images/*.jpg; make them with geoloc_sim --images N --out {folder}")
@@ -113,8 +120,6 @@ def load(folder: Path) -> list[Example]:
         for row in csv.DictReader(file):
             rows[row["picture"]].append(row)
     return [
-        example_of(image, cv2.imread(str(folder / "crisp" / f"{name}.png"), cv2.IMREAD_GRAYSCALE), rows[name])
-        if (folder / "crisp").is_dir()
-        else example_of(image, None, rows[name])
+        example_of(image, crisp_picture(folder, name) if with_legibility else None, rows[name])
         for image, name in zip(filmed(folder, names), names)
     ]

@@ -61,8 +61,8 @@ def collect(examples: list[Example], proposals: list[np.ndarray]) -> Looks:
         taught = example.targets[example.is_taught & (example.legible >= LEAST_LEGIBLE)]
         looks.targets += [Look(picture, box, box) for box in taught]
         for box in boxes:
-            overlaps = overlap(box, taught) if len(taught) else np.zeros(1)
-            if overlaps.max() >= MATCHES:
+            overlaps = overlap(box, taught)
+            if overlaps.max(initial=0.0) >= MATCHES:
                 looks.targets.append(Look(picture, box, taught[overlaps.argmax()]))
         for group, others in ((looks.mined, boxes), (looks.look_alikes, example.look_alikes)):
             group += [Look(picture, box, None) for box in others if shows_no_target(box, example)]
@@ -70,8 +70,8 @@ def collect(examples: list[Example], proposals: list[np.ndarray]) -> Looks:
 
 
 def shows_no_target(box: np.ndarray, example: Example) -> bool:
-    overlaps = overlap(box, example.targets) if len(example.targets) else np.zeros(1)
-    return overlaps.max() < MISSES and not hidden(box, example) and box[2:].min() > SMALLEST_PX
+    overlaps = overlap(box, example.targets)
+    return overlaps.max(initial=0.0) < MISSES and not hidden(box, example) and box[2:].min() > SMALLEST_PX
 
 
 def jittered(box: np.ndarray, random: np.random.Generator) -> np.ndarray:
@@ -98,8 +98,7 @@ def random_look(
     height, width = examples[picture].image.shape[:2]
     side = np.exp(random.uniform(*np.log(GROUND_SIDES_PX)))
     box = np.array([random.uniform(0, width), random.uniform(0, height), side, side])
-    near = overlap(box * (1, 1, 2, 2), examples[picture].targets) if len(examples[picture].targets) else np.zeros(1)
-    if near.max() > 0.0:
+    if overlap(box * (1, 1, 2, 2), examples[picture].targets).max(initial=0.0) > 0.0:
         return random_look(looks, examples, random)
     return Look(picture, box, None), box
 

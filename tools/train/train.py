@@ -100,7 +100,7 @@ def main() -> None:
     options = parse_arguments()
     torch.set_num_threads(options.threads)
     torch.manual_seed(options.seed)
-    examples = [example for folder in options.train for example in load(folder)]
+    examples = [example for folder in options.train for example in load(folder, with_legibility=False)]
     validation = load(options.validation)
     run = Run(
         TargetDetector(), PEAK_RATE, options.epochs, len(examples) // BATCH, options.seed, options.bfloat16

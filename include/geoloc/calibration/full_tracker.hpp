@@ -96,7 +96,6 @@ class FullTracker {
   void prefer_older_twins();
   const Pairing* oldest_twin(std::size_t look) const;
   bool is_older(int track, int other) const;
-  bool is_paired(std::size_t look, int track) const;
   bool is_matched(std::size_t look) const;
   bool is_seen_as_another(std::size_t track) const;
   bool is_seen(std::size_t track) const { return look_of_track_[track] != JointAssociation::kNone; }
@@ -113,6 +112,7 @@ class FullTracker {
   bool solve();
   void state_covariances();
   void merge_compatible();
+  bool are_not_told_apart(std::size_t a, std::size_t b) const;
   bool may_be_one(std::size_t a, std::size_t b) const;
   Eigen::Matrix2d covariance_of_difference(std::size_t a, std::size_t b) const;
   double noise_share(const Track& track) const;

@@ -71,6 +71,15 @@ class JointAssociation {
   /// Pairs within the gate, in the order they were added.
   const std::vector<Pairing>& pairings() const { return pairings_; }
 
+  /// How many looks of the frame may show a track that has a pairing.
+  int looks_at(int track) const {
+    const int column = column_of_track_[static_cast<std::size_t>(track)];
+    return pairings_of_column_[static_cast<std::size_t>(column)];
+  }
+
+  /// That pair, by itself: nothing is known of the shared error yet.
+  static Match match_of(const Pairing& pairing);
+
  private:
   /// Shared error given some pairs.
   struct Estimate {

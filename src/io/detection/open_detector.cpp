@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
 namespace geoloc::io {
@@ -11,42 +12,11 @@ namespace {
 
 constexpr double kSurroundings = 2.0;
 constexpr double kLeastSide_px = 16.0;
-constexpr double kLeastContrast = 2.0;  // grey levels: what has less is noise, and is not stretched
-constexpr std::array<double, 3> kLuma{0.114, 0.587, 0.299};  // shares of blue, green and red
+constexpr double kLeastContrast = 2.0;            // grey levels: what has less is noise, and is not stretched
+const cv::Matx13f kLuma{0.114F, 0.587F, 0.299F};  // shares of blue, green and red
 
 int rounded(double value) {
   return static_cast<int>(std::floor(value + 0.5));
-}
-
-struct Light {
-  std::array<double, 3> mean{};  // blue, green, red
-  double contrast = 0.0;         // standard deviation of the brightness
-};
-
-Light light_of(const cv::Mat& patch) {
-  std::array<double, 3> sums{};
-  double luma_squared = 0.0;
-  for (int y = 0; y < patch.rows; ++y) {
-    const auto* row = patch.ptr<cv::Vec3b>(y);
-    for (int x = 0; x < patch.cols; ++x) {
-      double luma = 0.0;
-      for (int channel = 0; channel < 3; ++channel) {
-        const auto index = static_cast<std::size_t>(channel);
-        sums[index] += row[x][channel];
-        luma += kLuma[index] * row[x][channel];
-      }
-      luma_squared += luma * luma;
-    }
-  }
-  const auto count = static_cast<double>(patch.total());
-  Light light;
-  double mean_luma = 0.0;
-  for (std::size_t channel = 0; channel < 3; ++channel) {
-    light.mean[channel] = sums[channel] / count;
-    mean_luma += kLuma[channel] * light.mean[channel];
-  }
-  light.contrast = std::sqrt(std::max(luma_squared / count - mean_luma * mean_luma, 0.0));
-  return light;
 }
 
 }  // namespace
@@ -74,16 +44,17 @@ cv::Mat cut_patch(const cv::Mat& bgr, const cv::Rect& square, int side_px) {
 }
 
 void write_normalised(const cv::Mat& patch, float* planes) {
-  const Light light = light_of(patch);
-  const double scale = 1.0 / std::max(light.contrast, kLeastContrast);
-  for (std::size_t plane = 0; plane < 3; ++plane) {
-    const std::size_t channel = 2 - plane;  // red comes first
-    for (int y = 0; y < patch.rows; ++y) {
-      const auto* row = patch.ptr<cv::Vec3b>(y);
-      for (int x = 0; x < patch.cols; ++x)
-        *planes++ = static_cast<float>((row[x][static_cast<int>(channel)] - light.mean[channel]) * scale);
-    }
-  }
+  cv::Mat pixels, luma;
+  patch.convertTo(pixels, CV_32F);
+  cv::transform(pixels, luma, kLuma);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(luma, mean, deviation);
+  const cv::Mat normalised = (pixels - cv::mean(pixels)) / std::max(deviation[0], kLeastContrast);
+  const auto plane = [&](std::size_t index) {
+    return cv::Mat{patch.size(), CV_32F, planes + index * patch.total()};
+  };
+  std::array<cv::Mat, 3> blue_green_red{plane(2), plane(1), plane(0)};
+  cv::split(normalised, blue_green_red);
 }
 
 SecondLookAnswer::SecondLookAnswer(const float* values)

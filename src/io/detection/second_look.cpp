@@ -48,30 +48,27 @@ class SecondLookDetector::Impl {
   std::vector<Detection> look_again(const cv::Mat& bgr, const std::vector<Detection>& proposed) {
     std::vector<Detection> seen;
     const auto at_once = static_cast<std::size_t>(network_.batch);
-    for (std::size_t begin = 0; begin < proposed.size(); begin += at_once) {
-      const std::vector<Detection> part{
-          proposed.begin() + static_cast<std::ptrdiff_t>(begin),
-          proposed.begin() + static_cast<std::ptrdiff_t>(std::min(begin + at_once, proposed.size()))};
-      look_at(bgr, part, seen);
-    }
+    for (std::size_t begin = 0; begin < proposed.size(); begin += at_once)
+      look_at(bgr, proposed, begin, std::min(begin + at_once, proposed.size()), seen);
     return seen;
   }
 
   /// At as many as the network takes at once, or fewer: then the other patches are of an earlier time, and
   /// their answers are not read.
-  void look_at(const cv::Mat& bgr, const std::vector<Detection>& proposed, std::vector<Detection>& seen) {
+  void look_at(const cv::Mat& bgr, const std::vector<Detection>& proposed, std::size_t begin, std::size_t end,
+               std::vector<Detection>& seen) {
     std::vector<cv::Rect> squares;
-    for (std::size_t i = 0; i < proposed.size(); ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
       squares.push_back(patch_around(proposed[i].box, bgr.size()));
       write_normalised(cut_patch(bgr, squares.back(), network_.patch_px),
-                       patches_.ptr<float>(static_cast<int>(i)));
+                       patches_.ptr<float>(static_cast<int>(i - begin)));
     }
     const cv::Mat answers = network_.network->run(patches_);
     if (answers.total() != static_cast<std::size_t>(network_.batch) * SecondLookAnswer::kValues)
       throw std::runtime_error("the output changed its size");
-    for (std::size_t i = 0; i < proposed.size(); ++i) {
-      const SecondLookAnswer answer{answers.ptr<float>() + i * SecondLookAnswer::kValues};
-      if (const auto detection = detection_of(answer, squares[i], proposed[i].class_id, bgr.size()))
+    for (std::size_t i = begin; i < end; ++i) {
+      const SecondLookAnswer answer{answers.ptr<float>() + (i - begin) * SecondLookAnswer::kValues};
+      if (const auto detection = detection_of(answer, squares[i - begin], proposed[i].class_id, bgr.size()))
         seen.push_back(*detection);
     }
   }
