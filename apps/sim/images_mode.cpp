@@ -19,8 +19,16 @@ CLI::Option* add_images_options(CLI::App& program, ImagesOptions& options) {
   images->needs(out);
   const std::map<std::string, ImageSet> sets{{"train", ImageSet::kTraining},
                                              {"held-back", ImageSet::kHeldBack}};
-  program.add_option("--grounds", options.wanted.set, "train, or held-back: other grounds in another light")
+  program
+      .add_option("--grounds", options.wanted.variety.set,
+                  "train, or held-back: other grounds in another light")
       ->transform(CLI::CheckedTransformer(sets))
+      ->needs(images)
+      ->group("Labelled pictures");
+  program
+      .add_option("--range-m", options.wanted.variety.range_m,
+                  "Least and greatest distance to the ground along the optical axis, m [4.5 85]")
+      ->check(CLI::Range(1.0, 100.0))
       ->needs(images)
       ->group("Labelled pictures");
   program

@@ -12,7 +12,7 @@ import numpy as np
 import onnxruntime
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/train"))
-from patches import boxes_of, cut, normalised, resized, squares_around  # noqa: E402
+from patches import boxes_of, cut, in_batches, judged, normalised, resized, squares_around  # noqa: E402
 
 CONFIDENCE, OVERLAP = 0.8, 0.5  # geoloc's defaults
 PROPOSED, MOST_PROPOSED = 0.1, 40  # likewise, of models with a second look
@@ -59,19 +59,17 @@ class Detector:
     def look_again(self, picture: np.ndarray, boxes: np.ndarray) -> np.ndarray:
         patches = self.second_look.get_inputs()[0]
         squares = squares_around(boxes, picture)
-        found = []
-        for begin in range(0, len(squares), patches.shape[0]):
-            part = squares[begin : begin + patches.shape[0]]
-            pixels = np.zeros(patches.shape, np.float32)
-            for index, square in enumerate(part):
-                pixels[index] = normalised(resized(cut(picture, square))[:, :, ::-1])
-            answers = self.second_look.run(None, {patches.name: pixels})[0][: len(part)]
-            found.append(np.column_stack((boxes_of(answers[:, 1:5], part), answers[:, 0])))
-        if not found:
+        if not len(squares):
             return boxes
-        rows = np.concatenate(found)
-        rows = rows[rows[:, 4] >= CONFIDENCE]
-        return rows[suppressed(rows[:, :4], rows[:, 4], np.zeros(len(rows), int), CONFIDENCE), :4]
+
+        def answers_to(pixels: np.ndarray) -> np.ndarray:
+            return in_batches(pixels, patches.shape[0], lambda part: self.second_look.run(None, {patches.name: part})[0])
+
+        pixels = np.array([normalised(resized(cut(picture, square))[:, :, ::-1]) for square in squares])
+        answers = judged(pixels, answers_to)
+        answers, squares = answers[answers[:, 0] >= CONFIDENCE], squares[answers[:, 0] >= CONFIDENCE]
+        found = boxes_of(answers[:, 1:5], squares)
+        return found[suppressed(found, answers[:, 0], np.zeros(len(found), int), CONFIDENCE)]
 
 
 def main() -> None:

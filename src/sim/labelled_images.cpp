@@ -166,7 +166,7 @@ bool write_labelled_images(const LabelledImages& wanted, const std::filesystem::
   for (int index = 0; index < wanted.count; ++index) {
     std::ostringstream name;
     name << std::setw(5) << std::setfill('0') << index;
-    const Shot shot = random_shot(wanted.seed, index, wanted.set);
+    const Shot shot = random_shot(wanted.seed, index, wanted.variety);
     write_shot(shot, grounds, unfinished.folder, name.str(), picture);
     if (wanted.with_crisp)
       write_crisp(shot, grounds, unfinished.folder / "crisp" / (name.str() + ".png"), picture);

@@ -52,9 +52,9 @@ CameraIntrinsics random_intrinsics(Random& random) {
   return intrinsics;
 }
 
-/// The distance along the optical axis log-uniform, so that targets of every size from 8 to 200 px are seen.
-Rigid3d random_pose(Random& random) {
-  const double range_m = std::exp(random.uniform(std::log(4.5), std::log(85.0)));
+Rigid3d random_pose(const ShotVariety& variety, Random& random) {
+  const auto [least_m, greatest_m] = variety.range_m;
+  const double range_m = std::exp(random.uniform(std::log(least_m), std::log(greatest_m)));
   const double tilt_rad = random.chance(0.25) ? 0.0 : kRadPerDeg * random.uniform(0.0, 60.0);
   const double tilt_towards_rad = random.uniform(-kPi, kPi);
   const double yaw_rad = random.uniform(-kPi, kPi);
@@ -165,14 +165,14 @@ Eigen::Vector2d random_blur(const CameraIntrinsics& intrinsics, double range_m, 
 
 }  // namespace
 
-Shot random_shot(std::uint64_t seed, int index, ImageSet set) {
+Shot random_shot(std::uint64_t seed, int index, const ShotVariety& variety) {
   Random random(seed * 1000003u + static_cast<std::uint64_t>(index));
   Shot shot;
-  shot.scene.ground = random_ground(set, random);
+  shot.scene.ground = random_ground(variety.set, random);
   shot.scene.ground_seed = static_cast<std::uint64_t>(random.index(kGroundsAStyle));
-  shot.settings = random_settings(set, random);
+  shot.settings = random_settings(variety.set, random);
   shot.intrinsics = random_intrinsics(random);
-  shot.enu_from_camera = random_pose(random);
+  shot.enu_from_camera = random_pose(variety, random);
   const CameraModel camera(shot.intrinsics);
   const std::vector<PlacedObject> targets = random_targets(camera, shot.enu_from_camera, random);
   const Eigen::Vector2d middle =

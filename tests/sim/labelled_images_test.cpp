@@ -84,7 +84,7 @@ TEST_F(LabelledImages, ListEveryObjectInView) {
 
 TEST_F(LabelledImages, AreTheSameWithCrispOnesBesideThem) {
   ASSERT_TRUE(write_labelled_images({1, 4}, folder_ / "plain", kGoOn));
-  ASSERT_TRUE(write_labelled_images({1, 4, ImageSet::kTraining, true}, folder_ / "set", kGoOn));
+  ASSERT_TRUE(write_labelled_images({1, 4, {}, true}, folder_ / "set", kGoOn));
   EXPECT_EQ(content(folder_ / "plain/images/00000.jpg"), content(folder_ / "set/images/00000.jpg"));
   const cv::Mat picture = cv::imread(folder_ / "set/images/00000.jpg", cv::IMREAD_GRAYSCALE);
   const cv::Mat crisp = cv::imread(folder_ / "set/crisp/00000.png", cv::IMREAD_UNCHANGED);
@@ -134,11 +134,21 @@ TEST(RandomShots, VaryAsTheDetectorNeeds) {
   EXPECT_GT(without_target, kShots / 20);
 }
 
+TEST(RandomShots, AreTakenFromTheDistancesAskedFor) {
+  for (int index = 0; index < 50; ++index) {
+    const Shot shot = random_shot(9, index, {ImageSet::kTraining, {40.0, 60.0}});
+    const Eigen::Vector3d optical_axis = shot.enu_from_camera.rotation * Eigen::Vector3d::UnitZ();
+    const double range_m = -shot.enu_from_camera.translation.z() / optical_axis.z();
+    EXPECT_GE(range_m, 40.0 - 1e-9);
+    EXPECT_LE(range_m, 60.0 + 1e-9);
+  }
+}
+
 TEST(RandomShots, ShareNeitherGroundNorLightBetweenTheSets) {
   std::array<std::array<int, kGroundStyleCount>, 2> grounds{};
   for (int index = 0; index < 300; ++index) {
     for (const ImageSet set : {ImageSet::kTraining, ImageSet::kHeldBack}) {
-      const Shot shot = random_shot(9, index, set);
+      const Shot shot = random_shot(9, index, {set});
       ++grounds[set == ImageSet::kTraining ? 0 : 1][static_cast<std::size_t>(shot.scene.ground)];
       const bool usual_exposure = shot.settings.exposure >= 0.5 && shot.settings.exposure <= 1.5;
       EXPECT_EQ(usual_exposure, set == ImageSet::kTraining) << shot.settings.exposure;

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dataset import Example, letterbox
-from patches import boxes_of, cut, normalised, resized, squares_around
+from patches import boxes_of, cut, judged, normalised, resized, squares_around
 
 LOWEST_CONFIDENCE = 0.05  # nothing below is looked at
 PROPOSED = 0.1  # confidence from which boxes are looked at again, as detection.second_look.confidence is by default
@@ -95,7 +95,8 @@ def detect_twice(network: Network, second_look: SecondLook, image: np.ndarray) -
     squares = squares_around(proposed, image)
     if not len(squares):
         return proposed, np.empty(0), np.empty(0)
-    answers = second_look(np.stack([normalised(resized(cut(image, square))) for square in squares]))
+    patches = np.stack([normalised(resized(cut(image, square))) for square in squares])
+    answers = judged(patches, second_look)
     order = np.argsort(-answers[:, 0], kind="stable")
     boxes, scores = clipped(boxes_of(answers[:, 1:5], squares), width, height)[order], answers[order, 0]
     kept = suppressed(boxes)

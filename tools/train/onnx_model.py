@@ -7,6 +7,7 @@ import numpy as np
 import onnxruntime
 
 from matching import Network, SecondLook
+from patches import in_batches
 
 
 def open_session(file: Path, threads: int) -> onnxruntime.InferenceSession:
@@ -29,12 +30,8 @@ def load_network(file: Path, threads: int = 2) -> Network:
 def load_second_look(file: Path, threads: int = 2) -> SecondLook:
     session = open_session(file, threads)
     patches = session.get_inputs()[0]
-    at_once = patches.shape[0]
 
-    def run(all_patches: np.ndarray) -> np.ndarray:
-        filled = -len(all_patches) % at_once
-        padded = np.concatenate((all_patches, np.zeros((filled, *all_patches.shape[1:]), np.float32)))
-        parts = np.split(padded, len(padded) // at_once)
-        return np.concatenate([session.run(None, {patches.name: part})[0] for part in parts])[: len(all_patches)]
+    def run(batch: np.ndarray) -> np.ndarray:
+        return session.run(None, {patches.name: batch})[0]
 
-    return run
+    return lambda pixels: in_batches(pixels, patches.shape[0], run)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the second look is given of a picture: the surroundings of a box, all of one size and one exposure.
-src/io/detection/second_look.cpp cuts the same."""
+"""What the second look is given of a picture: the surroundings of a box, all of one size and one exposure; and what is
+made of its answers. src/io/detection/patch.cpp does the same."""
+
+from collections.abc import Callable
 
 import cv2
 import numpy as np
@@ -9,6 +11,7 @@ PATCH_PX = 48
 SURROUNDINGS = 2.0  # a patch shows so many times the longer side of a box
 LEAST_SIDE_PX = 16  # of the square that a patch shows
 LUMA = np.float32([0.299, 0.587, 0.114])  # shares of red, green, blue
+IN_DOUBT = (0.05, 0.98)  # scores in between are asked for twice more, of the mirrored patch
 LEAST_CONTRAST = 2.0  # grey levels: a patch with less is not stretched further, it would show noise alone
 
 
@@ -58,3 +61,30 @@ def answers_for(boxes: np.ndarray, squares: np.ndarray) -> np.ndarray:
     """The inverse of boxes_of()."""
     side = squares[:, 2:].astype(np.float64)
     return np.column_stack(((boxes[:, :2] - squares[:, :2]) / side - 0.5, boxes[:, 2:] / side))
+
+
+def judged(patches: np.ndarray, second_look: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """Answers [K, 6] to patches [K, 3, 48, 48]. Where the score leaves a doubt, the mean of three: to the patch, and to it
+    mirrored either way; of the scores their logits, size and sigma as of the plain patch."""
+    answers = second_look(patches)
+    doubtful = np.flatnonzero((answers[:, 0] > IN_DOUBT[0]) & (answers[:, 0] < IN_DOUBT[1]))
+    if len(doubtful):
+        plain = answers[doubtful]
+        reversed_ = second_look(patches[doubtful, :, :, ::-1].copy())
+        inverted = second_look(patches[doubtful, :, ::-1].copy())
+        mean_logit = np.mean([logit(one[:, 0]) for one in (plain, reversed_, inverted)], 0)
+        answers[doubtful, 0] = 1.0 / (1.0 + np.exp(-mean_logit))
+        answers[doubtful, 1] = (plain[:, 1] - reversed_[:, 1] + inverted[:, 1]) / 3.0
+        answers[doubtful, 2] = (plain[:, 2] + reversed_[:, 2] - inverted[:, 2]) / 3.0
+    return answers
+
+
+def in_batches(patches: np.ndarray, at_once: int, run: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
+    """run() for all patches, of a network that takes exactly so many at once."""
+    padded = np.concatenate((patches, np.zeros((-len(patches) % at_once, *patches.shape[1:]), np.float32)))
+    return np.concatenate([run(part) for part in np.split(padded, len(padded) // at_once)])[: len(patches)]
+
+
+def logit(score: np.ndarray) -> np.ndarray:
+    clamped = np.clip(score, 1e-6, 1.0 - 1e-6)
+    return np.log(clamped / (1.0 - clamped))

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
@@ -28,10 +29,18 @@ struct Shot {
 enum class ImageSet { kTraining, kHeldBack };
 inline constexpr int kGroundsAStyle = 2;  ///< how many seeds of each style are used
 
-/// Picture number `index` of a set: targets 8-200 px wide, seen up to 60 deg from the vertical in varied
-/// light, up to eight of them (none in one of ten) among distractors and shadows, some partly covered.
-/// Depends on nothing but its arguments.
-Shot random_shot(std::uint64_t seed, int index, ImageSet set = ImageSet::kTraining);
+/// What shots are of.
+struct ShotVariety {
+  ImageSet set = ImageSet::kTraining;
+  /// Least and greatest distance along the optical axis from the camera to the ground, between them
+  /// log-uniform; so targets are 8-200 px wide.
+  std::pair<double, double> range_m{4.5, 85.0};
+};
+
+/// Picture number `index` of a set: targets seen up to 60 deg from the vertical in varied light, up to eight
+/// of them (none in one of ten) among distractors and shadows, some partly covered. Depends on nothing but
+/// its arguments.
+Shot random_shot(std::uint64_t seed, int index, const ShotVariety& variety = {});
 
 /// The targets worth learning from: those of which at least kLabelledFraction is inside the image and
 /// uncovered.
@@ -42,9 +51,9 @@ inline constexpr double kLabelledFraction = 0.4;
 struct LabelledImages {
   int count = 0;
   std::uint64_t seed = 1;
-  ImageSet set = ImageSet::kTraining;
-  bool with_crisp =
-      false;  ///< also folder/crisp/00000.png ...: the same in grey, by a camera that adds nothing
+  ShotVariety variety{};
+  /// Also folder/crisp/00000.png ...: the same in grey, by a camera that adds nothing.
+  bool with_crisp = false;
 };
 
 /// Writes folder/images/00000.jpg ..., folder/labels/00000.txt ... (YOLO: class, centre and size relative to

@@ -12,11 +12,23 @@ namespace {
 
 constexpr double kSurroundings = 2.0;
 constexpr double kLeastSide_px = 16.0;
-constexpr double kLeastContrast = 2.0;            // grey levels: what has less is noise, and is not stretched
+constexpr double kLeastContrast = 2.0;  // grey levels: what has less is noise, and is not stretched
+constexpr double kSurelyNone = 0.05;
+constexpr double kSurelyOne = 0.98;
+constexpr double kNoise = 1e-6;                   // scores nearer to 0 and 1 say no more
 const cv::Matx13f kLuma{0.114F, 0.587F, 0.299F};  // shares of blue, green and red
 
 int rounded(double value) {
   return static_cast<int>(std::floor(value + 0.5));
+}
+
+double logit(double score) {
+  const double clamped = std::clamp(score, kNoise, 1.0 - kNoise);
+  return std::log(clamped / (1.0 - clamped));
+}
+
+double score_of(double logit) {
+  return 1.0 / (1.0 + std::exp(-logit));
 }
 
 }  // namespace
@@ -71,10 +83,30 @@ bool SecondLookAnswer::is_sound() const {
   return is_finite && score >= 0.0 && score <= 1.0 && width > 0.0 && height > 0.0 && sigma >= 0.0;
 }
 
+bool SecondLookAnswer::is_in_doubt() const {
+  return score > kSurelyNone && score < kSurelyOne;
+}
+
 Box SecondLookAnswer::box_in(const cv::Rect& square) const {
   const double side = square.width;
   return {square.x + (0.5 + off_centre_x - 0.5 * width) * side,
           square.y + (0.5 + off_centre_y - 0.5 * height) * side, width * side, height * side};
+}
+
+std::array<cv::Mat, 2> mirrored(const cv::Mat& patch) {
+  std::array<cv::Mat, 2> images;
+  cv::flip(patch, images[0], 1);
+  cv::flip(patch, images[1], 0);
+  return images;
+}
+
+SecondLookAnswer agreed(const SecondLookAnswer& plain, const SecondLookAnswer& reversed,
+                        const SecondLookAnswer& upside_down) {
+  SecondLookAnswer mean = plain;
+  mean.score = score_of((logit(plain.score) + logit(reversed.score) + logit(upside_down.score)) / 3.0);
+  mean.off_centre_x = (plain.off_centre_x - reversed.off_centre_x + upside_down.off_centre_x) / 3.0;
+  mean.off_centre_y = (plain.off_centre_y + reversed.off_centre_y - upside_down.off_centre_y) / 3.0;
+  return mean;
 }
 
 }  // namespace geoloc::io

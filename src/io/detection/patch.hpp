@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/types.hpp>
 
@@ -34,7 +35,17 @@ struct SecondLookAnswer {
 
   /// Finite, of some size, and with a score in 0..1.
   bool is_sound() const;
+  /// Neither sure of such an object nor of none.
+  bool is_in_doubt() const;
   Box box_in(const cv::Rect& square) const;
 };
+
+/// A patch seen left to right reversed, and upside down: the same object to a viewer, others to a network.
+std::array<cv::Mat, 2> mirrored(const cv::Mat& patch);
+
+/// The answer to a patch with those to mirrored(patch) taken into account: the mean of the scores' logits and
+/// of the centres; size and sigma as of the plain one.
+SecondLookAnswer agreed(const SecondLookAnswer& plain, const SecondLookAnswer& reversed,
+                        const SecondLookAnswer& upside_down);
 
 }  // namespace geoloc::io

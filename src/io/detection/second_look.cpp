@@ -46,31 +46,55 @@ class SecondLookDetector::Impl {
 
  private:
   std::vector<Detection> look_again(const cv::Mat& bgr, const std::vector<Detection>& proposed) {
+    std::vector<cv::Rect> squares;
+    std::vector<cv::Mat> patches;
+    for (const Detection& proposal : proposed) {
+      squares.push_back(patch_around(proposal.box, bgr.size()));
+      patches.push_back(cut_patch(bgr, squares.back(), network_.patch_px));
+    }
+    const std::vector<SecondLookAnswer> answers = judge(patches);
     std::vector<Detection> seen;
-    const auto at_once = static_cast<std::size_t>(network_.batch);
-    for (std::size_t begin = 0; begin < proposed.size(); begin += at_once)
-      look_at(bgr, proposed, begin, std::min(begin + at_once, proposed.size()), seen);
+    for (std::size_t i = 0; i < proposed.size(); ++i) {
+      if (const auto detection = detection_of(answers[i], squares[i], proposed[i].class_id, bgr.size()))
+        seen.push_back(*detection);
+    }
     return seen;
   }
 
-  /// At as many as the network takes at once, or fewer: then the other patches are of an earlier time, and
-  /// their answers are not read.
-  void look_at(const cv::Mat& bgr, const std::vector<Detection>& proposed, std::size_t begin, std::size_t end,
-               std::vector<Detection>& seen) {
-    std::vector<cv::Rect> squares;
-    for (std::size_t i = begin; i < end; ++i) {
-      squares.push_back(patch_around(proposed[i].box, bgr.size()));
-      write_normalised(cut_patch(bgr, squares.back(), network_.patch_px),
-                       patches_.ptr<float>(static_cast<int>(i - begin)));
+  /// What is in doubt is looked at twice more, mirrored: errors that a mirror undoes average out.
+  std::vector<SecondLookAnswer> judge(const std::vector<cv::Mat>& patches) {
+    std::vector<SecondLookAnswer> answers = look_at(patches);
+    std::vector<cv::Mat> doubtful;
+    for (std::size_t i = 0; i < patches.size(); ++i) {
+      if (!answers[i].is_in_doubt()) continue;
+      for (cv::Mat& image : mirrored(patches[i])) doubtful.push_back(std::move(image));
     }
-    const cv::Mat answers = network_.network->run(patches_);
-    if (answers.total() != static_cast<std::size_t>(network_.batch) * SecondLookAnswer::kValues)
-      throw std::runtime_error("the output changed its size");
-    for (std::size_t i = begin; i < end; ++i) {
-      const SecondLookAnswer answer{answers.ptr<float>() + (i - begin) * SecondLookAnswer::kValues};
-      if (const auto detection = detection_of(answer, squares[i - begin], proposed[i].class_id, bgr.size()))
-        seen.push_back(*detection);
+    const std::vector<SecondLookAnswer> others = look_at(doubtful);
+    auto other = others.begin();
+    for (SecondLookAnswer& answer : answers) {
+      if (!answer.is_in_doubt()) continue;
+      answer = agreed(answer, other[0], other[1]);
+      other += 2;
     }
+    return answers;
+  }
+
+  /// As many at once as the network takes, or fewer: then the other patches are of an earlier time, and the
+  /// answers to them are not read.
+  std::vector<SecondLookAnswer> look_at(const std::vector<cv::Mat>& patches) {
+    std::vector<SecondLookAnswer> answers;
+    const auto at_once = static_cast<std::size_t>(network_.batch);
+    for (std::size_t begin = 0; begin < patches.size(); begin += at_once) {
+      const std::size_t count = std::min(at_once, patches.size() - begin);
+      for (std::size_t i = 0; i < count; ++i)
+        write_normalised(patches[begin + i], patches_.ptr<float>(static_cast<int>(i)));
+      const cv::Mat output = network_.network->run(patches_);
+      if (output.total() != at_once * SecondLookAnswer::kValues)
+        throw std::runtime_error("the output changed its size");
+      for (std::size_t i = 0; i < count; ++i)
+        answers.emplace_back(output.ptr<float>() + i * SecondLookAnswer::kValues);
+    }
+    return answers;
   }
 
   /// nullopt where it is not sure enough, or nothing that can be.

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <random>
 #include <stdexcept>
 
@@ -66,6 +68,39 @@ TEST_P(OnEachBackend, MovesSizesAndJudgesABoxByItsSurroundings) {
   EXPECT_NEAR(found[0].sigma_px, 0.02 * 48, 1e-5);
   EXPECT_GT(found[0].confidence, 0.99);
   EXPECT_TRUE(detector.detect(with_red({192, 64}, {0, 0, 16, 16})).empty());
+}
+
+TEST(SecondLook, LooksAtWhatIsInDoubtMirroredToo) {
+  // The patch of 48 px is seen as 8 x 8 blocks, its block (4, 4) plain, (3, 4) reversed, (4, 3) upside down.
+  cv::Mat patch{8, 8, CV_8UC3, kGrey};
+  patch.at<cv::Vec3b>(4, 4) = {90, 90, 160};
+  patch.at<cv::Vec3b>(4, 3) = {60, 120, 220};
+  patch.at<cv::Vec3b>(3, 4) = {114, 130, 140};
+  for (int column = 0; column < 8; ++column) patch.at<cv::Vec3b>(0, column) = {20, 30, 200};
+  cv::Mat picture{64, 192, CV_8UC3, kGrey};
+  cv::resize(patch, picture(cv::Rect{32, 16, 48, 48}), {48, 48}, 0, 0, cv::INTER_NEAREST);
+
+  double red_sum = 0.0, luma_sum = 0.0, luma_squares = 0.0;
+  for (const cv::Vec3b& pixel : cv::Mat_<cv::Vec3b>(patch)) {
+    const double luma = 0.114 * pixel[0] + 0.587 * pixel[1] + 0.299 * pixel[2];
+    red_sum += pixel[2];
+    luma_sum += luma;
+    luma_squares += luma * luma;
+  }
+  const double contrast = std::sqrt(luma_squares / 64 - std::pow(luma_sum / 64, 2));
+  const auto logit = [&](int row, int column) {
+    return (patch.at<cv::Vec3b>(row, column)[2] - red_sum / 64) / contrast;
+  };
+  const double mean_logit = (logit(4, 4) + logit(4, 3) + logit(3, 4)) / 3;
+
+  DetectionConfig config;
+  config.confidence = 1e-6;
+  const auto found = looking_at({{44, 34, 24, 12}}, "second_look", config).detect(picture);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_GT(std::abs(mean_logit - logit(4, 4)), 0.1);  // it makes a difference
+  EXPECT_NEAR(found[0].confidence, 1 / (1 + std::exp(-mean_logit)), 1e-4);
+  EXPECT_NEAR(found[0].box.x + 0.5 * found[0].box.width, 32 + (0.5 + (0.1 - 0.1 + 0.1) / 3) * 48, 1e-4);
+  EXPECT_NEAR(found[0].box.y + 0.5 * found[0].box.height, 16 + (0.5 + (0.05 + 0.05 - 0.05) / 3) * 48, 1e-4);
 }
 
 TEST(SecondLook, TellsTheSameOfABoxWhateverElseItLooksAt) {
