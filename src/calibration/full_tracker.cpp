@@ -24,6 +24,11 @@ constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
 /// What the assumed detection probability counts for against observed ones.
 constexpr double kPriorOpportunities = 20.0;
 
+/// By which the variance of a mean over many frames is larger than if their noise was not shared.
+double frames_that_share(double time_constant_s, double pause_s) {
+  return std::max(1.0, 2.0 * time_constant_s / pause_s);
+}
+
 FullTrackerConfig checked(const FullTrackerConfig& config) {
   throw_if_any(config.problems());
   return config;
@@ -107,7 +112,10 @@ void FullTracker::begin_frame(const FrameView& view) {
     reported_accuracy_m_ = std::clamp(*view.vehicle.sigma_horizontal_m, 0.02, 100.0);
   if (frames_++ > 0) {
     const double pause_s = seconds(view.vehicle.time - now_);
-    if (pause_s > 0.0) noise_correlation_ = std::max(1.0, 2.0 * config_.fast_time_constant_s / pause_s);
+    if (pause_s > 0.0) {
+      noise_correlation_ = frames_that_share(config_.fast_time_constant_s, pause_s);
+      attitude_correlation_ = frames_that_share(config_.attitude_time_constant_s, pause_s);
+    }
   }
   now_ = view.vehicle.time;
   span_ = drift_.cover(view.vehicle.time, reported_sigma_m());

@@ -39,6 +39,8 @@ std::vector<std::string> FullTrackerConfig::problems() const {
   found.require(sigma_state_lag_s >= 0.0 && sigma_state_lag_s <= 1.0,
                 "full.sigma_state_lag_s must lie in [0, 1]");
   found.require(fast_share >= 0.0 && fast_share <= 1.0, "full.fast_share must lie in [0, 1]");
+  found.require(attitude_time_constant_s >= 0.0 && attitude_time_constant_s <= 100.0,
+                "full.attitude_time_constant_s must lie in [0, 100]");
   found.require(fast_time_constant_s >= 0.0 && fast_time_constant_s <= 100.0,
                 "full.fast_time_constant_s must lie in [0, 100]");
   found.require(gate > 0.0 && gate <= 1000.0, "full.gate must lie in (0, 1000]");

@@ -34,9 +34,14 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
                              const FrameView& view) {
   looks_.clear();
   moving_looks_.clear();
+  const auto is_moving = [&](const LocatedDetection& located) {
+    return moving_.is_of_moving_class(located.detection);
+  };
+  const auto at_rest = static_cast<double>(std::count_if(
+      detections.begin(), detections.end(), [&](const LocatedDetection& one) { return !is_moving(one); }));
   for (const LocatedDetection& located : detections) {
-    const Look look = make_look(located, projector, view);
-    std::vector<Look>& kind = moving_.is_of_moving_class(located.detection) ? moving_looks_ : looks_;
+    const Look look = make_look(located, at_rest, projector, view);
+    std::vector<Look>& kind = is_moving(located) ? moving_looks_ : looks_;
     if (!is_duplicate(look, kind, config_.duplicate_share)) kind.push_back(look);
   }
   frame_noise_ = mean_frame_noise(looks_.empty() ? moving_looks_ : looks_);
@@ -46,8 +51,11 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
   }
 }
 
-Look FullTracker::make_look(const LocatedDetection& located, const Projector& projector,
-                            const FrameView& view) const {
+/// The attitude's error is the same in all looks of a frame: N of them with N times its variance say as much
+/// of it as one does, and would be N independent witnesses without. What the position does within seconds is
+/// shared too, but for the most part known from the nodes; it counts once.
+Look FullTracker::make_look(const LocatedDetection& located, double looks_that_share,
+                            const Projector& projector, const FrameView& view) const {
   const double height_m =
       view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const FixJacobians jacobians = jacobians_of(located.fix, view, height_m);
@@ -55,22 +63,26 @@ Look FullTracker::make_look(const LocatedDetection& located, const Projector& pr
   const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
   const Eigen::Matrix2d time_noise =
       std::pow(config_.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose();
-  const double fast_variance =
-      std::pow(config_.fast_share * drift_.position_scale() * reported_accuracy_m_, 2) / 2.0;
+  const Eigen::Matrix2d attitude_noise =
+      std::pow(config_.sigma_attitude_deg * kRadPerDeg, 2) * turn * turn.transpose();
+  const Eigen::Matrix2d position_noise =
+      std::pow(config_.fast_share * drift_.position_scale() * reported_accuracy_m_, 2) / 2.0 *
+      Eigen::Matrix2d::Identity();
   // What the fix already holds: all but the offset.
   CalibrationVector applied = calibration_.mean;
   applied.segment<2>(Index::kOffset).setZero();
 
   Look look;
   look.pixel_noise = located.fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
-  look.frame_noise = std::pow(config_.sigma_attitude_deg * kRadPerDeg, 2) * turn * turn.transpose() +
-                     fast_variance * Eigen::Matrix2d::Identity();
+  look.frame_noise = attitude_noise + position_noise;
   look.observation.value = located.fix.position_in_enu - jacobians.calibration * applied;
   look.observation.calibration_jacobian = jacobians.calibration;
   look.observation.node_jacobian = jacobians.node;
   look.observation.span = span_;
   look.observation.information =
-      (look.pixel_noise + time_noise + noise_correlation_ * look.frame_noise).inverse();
+      (look.pixel_noise + time_noise + attitude_correlation_ * looks_that_share * attitude_noise +
+       noise_correlation_ * position_noise)
+          .inverse();
   look.position = located.fix.position_in_enu + calibration_.offset_m() + jacobians.node * drift_now_;
   look.jacobian = whitened(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
   look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * ground_velocity;

@@ -90,6 +90,12 @@ class Sweeps(AppTest):
         self.assertGreater(rmse_m["paper", 0.3], 2 * rmse_m["paper", 0.0])
         self.assertLess(rmse_m["full", 0.3], 1.3 * rmse_m["full", 0.0])
 
+    def test_from_no_height_is_full_too_sure_of_itself(self):
+        report = self.evaluate(self.folder, "--flights", "none", "--sweep", "height", "--method", "full")
+        (sweep,) = report["sweeps"]
+        for point in sweep["points"]:
+            self.assertLessEqual(point["mean_nees"], 2 * 2, point["value"])
+
     def test_the_usual_value_gives_the_tables_figures(self):
         report = self.evaluate(self.folder, "--flights", "stock", "--scenarios", 1, "--sweep", "height")
         (sweep,) = report["sweeps"]

@@ -84,7 +84,8 @@ class FullTracker {
   void begin_frame(const FrameView& view);
   void make_looks(const std::vector<LocatedDetection>& detections, const Projector& projector,
                   const FrameView& view);
-  Look make_look(const LocatedDetection& located, const Projector& projector, const FrameView& view) const;
+  Look make_look(const LocatedDetection& located, double looks_that_share, const Projector& projector,
+                 const FrameView& view) const;
   void track_moving(const Projector& projector, const FrameView& view);
   void list_all_tracks();
   void associate();
@@ -157,7 +158,8 @@ class FullTracker {
   std::vector<Look> moving_looks_;
   NodeVector drift_now_ = NodeVector::Zero();
   NodeSpan span_{};
-  double noise_correlation_ = 1.0;  // frames that share their noise
+  double noise_correlation_ = 1.0;     // frames that share their noise
+  double attitude_correlation_ = 1.0;  // that of the attitude, in the sums
   double reported_accuracy_m_;
   Eigen::Matrix2d frame_noise_ = Eigen::Matrix2d::Zero();  // of attitude and position, shared by the looks
   Eigen::Vector2d shift_ = Eigen::Vector2d::Zero();

@@ -27,7 +27,9 @@ struct FullTrackerConfig {
   // Noise of one look.
   double sigma_px = 1.5;            ///< of a box's centre, an axis
   double sigma_attitude_deg = 0.1;  ///< of roll, pitch and yaw from frame to frame
-  double sigma_time_s = 0.01;       ///< of a frame's stamp, from frame to frame
+  double attitude_time_constant_s =
+      0.6;                     ///< frames within it share that, as far as the drift's nodes do not follow it
+  double sigma_time_s = 0.01;  ///< of a frame's stamp, from frame to frame
   double horizontal_accuracy_m =
       0.85;  ///< of the vehicle's position, where the autopilot reports none (radial, 1-sigma)
   double constant_share = 0.15;  ///< of its variance, what stays constant over a flight; the rest wanders

@@ -80,6 +80,8 @@ void visit_fields(Visitor& v, FullTrackerConfig& full) {
   v.field("sigma_px", full.sigma_px, "px, 1-sigma of a box's centre, an axis");
   v.field("sigma_time_s", full.sigma_time_s, "s, of a frame's stamp, from frame to frame");
   v.field("sigma_attitude_deg", full.sigma_attitude_deg, "deg, 1-sigma from frame to frame");
+  v.field("attitude_time_constant_s", full.attitude_time_constant_s,
+          "s, frames within it share that, as far as drift does not follow it");
   v.field("horizontal_accuracy_m", full.horizontal_accuracy_m, "m, radial, where the autopilot reports none");
   v.field("constant_share", full.constant_share, "of its variance, what stays constant over a flight");
   v.field("least_offset_sigma_m", full.least_offset_sigma_m,
