@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The figures of docs/model.md, for the validation set and the held-back one. Prints tables in Markdown, and writes
+"""The figures of docs/model.md, for the validation set and the held-back ones. Prints tables in Markdown, and writes
 precision_recall.svg and failures.jpg."""
 
 import argparse
@@ -36,6 +36,24 @@ def quality_table(found: list[Found], examples: list[Example], thresholds: list[
             f"{recall:.3f} | {precision:.3f}" for recall, precision in (one.at(threshold) for one in curves)
         ]
         lines.append(f"| {threshold:.2f} | " + " | ".join(values) + " |")
+    return lines
+
+
+def sets_table(found: list[Found], sets: dict[str, list[Example]], threshold: float) -> list[str]:
+    """Each set by itself, at one threshold; `found` counts the pictures of one after the other."""
+    lines = [
+        "| set | " + " | ".join(f"{name_of(size)}: targets | recall | precision" for size in SIZES_PX) + " |",
+        "|---" * (1 + 3 * len(SIZES_PX)) + "|",
+    ]
+    begin = 0
+    for name, examples in sets.items():
+        own = [replace(one, picture=one.picture - begin) for one in found if 0 <= one.picture - begin < len(examples)]
+        cells = []
+        for size in SIZES_PX:
+            recall, precision = curve(own, examples, size).at(threshold)
+            cells.append(f"{demanded(examples, size)} | {recall:.3f} | {precision:.3f}")
+        lines.append(f"| {name} | " + " | ".join(cells) + " |")
+        begin += len(examples)
     return lines
 
 
@@ -112,7 +130,7 @@ def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("model", type=Path)
     arguments.add_argument("--validation", type=Path, required=True)
-    arguments.add_argument("--held-back", type=Path, required=True)
+    arguments.add_argument("--held-back", type=Path, nargs="+", required=True)
     arguments.add_argument("--figures", type=Path, help="folder for the pictures")
     arguments.add_argument(
         "--confidence", type=float, default=0.8, help="of the pictures and centres; detection.confidence [0.8]"
@@ -120,7 +138,9 @@ def main() -> None:
     arguments.add_argument("--alone", action="store_true", help="without the second look")
     options = arguments.parse_args()
     detector = open_detector(options.model, options.alone)
-    validation, held_back = load(options.validation), load(options.held_back)
+    validation = load(options.validation)
+    sets = {folder.name: load(folder) for folder in options.held_back}
+    held_back = [example for examples in sets.values() for example in examples]
     found = match(answers_to(detector, validation, "validation"), validation)
     threshold = options.confidence
     thresholds = sorted({*TABLE_THRESHOLDS, threshold})
@@ -135,6 +155,7 @@ def main() -> None:
     answers = answers_to(detector, held_back, "held back")
     found = match(answers, held_back)
     print("\n".join(quality_table(found, held_back, thresholds)), "\n")
+    print("\n".join(sets_table(found, sets, threshold)), "\n")
     everything = [replace(example, legible=np.ones(len(example.targets))) for example in held_back]
     print("With those that are not legible any more:\n")
     print("\n".join(quality_table(match(answers, everything), everything, thresholds)), "\n")

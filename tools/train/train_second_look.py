@@ -107,7 +107,7 @@ def parse_arguments() -> argparse.Namespace:
     arguments.add_argument(
         "--out", type=Path, required=True, help="the .onnx to write; the checkpoint stands beside it"
     )
-    arguments.add_argument("--epochs", type=int, default=20)
+    arguments.add_argument("--epochs", type=int, default=30)
     arguments.add_argument("--seed", type=int, default=0)
     arguments.add_argument("--threads", type=int, default=2)
     arguments.add_argument("--bfloat16", action="store_true", help="faster where the processor has avx512_bf16")

@@ -49,18 +49,24 @@ void expect_contains(const std::vector<Detection>& all, const std::vector<Detect
   }
 }
 
-TEST(DefaultModel, FindsWhatOnnxRuntimeFinds) {
-  const std::filesystem::path data{GEOLOC_TEST_DATA_DIR};
+class DefaultModel : public ::testing::TestWithParam<const char*> {};
+
+/// In the second picture the second look is in doubt of nine boxes, and looks again.
+INSTANTIATE_TEST_SUITE_P(Pictures, DefaultModel, ::testing::Values("targets", "doubtful"),
+                         [](const auto& tested) { return std::string{tested.param}; });
+
+TEST_P(DefaultModel, FindsWhatOnnxRuntimeFinds) {
+  const auto data = std::filesystem::path{GEOLOC_TEST_DATA_DIR} / "detection";
   const auto model = std::filesystem::path{GEOLOC_SOURCE_DIR} / "data/models/fiducial.onnx";
-  const auto fixture = nlohmann::json::parse(std::ifstream{data / "detection/targets.json"});
+  const auto fixture = nlohmann::json::parse(std::ifstream{data / (std::string{GetParam()} + ".json")});
 
   DetectionConfig config;
   config.confidence = 0.4;
   config.nms_iou = 0.5;
   const auto detector = open_detector({model, {}}, config);
-  const auto found = detector->detect(cv::imread((data / "detection/targets.jpg").string()));
+  const auto found = detector->detect(cv::imread((data / (std::string{GetParam()} + ".jpg")).string()));
   const auto expected = expected_detections(fixture);
-  EXPECT_GE(expected.size(), 5U);
+  EXPECT_GE(expected.size(), 4U);
   SCOPED_TRACE("after a change of the model: tools/fixtures/make_detection_fixture.py");
   expect_contains(found, expected, config);
   expect_contains(expected, found, config);
