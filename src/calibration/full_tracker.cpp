@@ -145,10 +145,11 @@ void FullTracker::list_all_tracks() {
 }
 
 void FullTracker::solve_if_due(VehicleTime now) {
-  const bool is_due = frames_ <= kEagerFrames || !solved_at_ || now < *solved_at_ ||
+  const bool is_due = is_comparison_due_ || frames_ <= kEagerFrames || !solved_at_ || now < *solved_at_ ||
                       seconds(now - *solved_at_) >= config_.solve_period_s;
   if (!is_due) return;
   solved_at_ = now;
+  is_comparison_due_ = false;
   if (!solve()) return;
   learn_wandering();
   merge_compatible();

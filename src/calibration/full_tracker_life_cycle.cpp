@@ -40,12 +40,15 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
 }
 
 /// A younger track that may be the same object has this frame's look: begun when the vehicle came back with
-/// another drift, it would outlive the older one, and all that this one knows.
-bool FullTracker::is_seen_as_another(std::size_t k) const {
+/// another drift, it would outlive the older one, and all that this one knows. As soon as the two can be
+/// compared they are.
+bool FullTracker::is_seen_as_another(std::size_t k) {
   if (tracks_[k].status != TrackStatus::kConfirmed) return false;
   for (std::size_t other = 0; other < tracks_.size(); ++other) {
     const bool is_young = tracks_[other].id > tracks_[k].id && tracks_[other].hits <= kHitsToCompare;
-    if (is_young && is_seen(other) && are_not_told_apart(k, other)) return true;
+    if (!is_young || !is_seen(other) || !are_not_told_apart(k, other)) continue;
+    is_comparison_due_ = is_comparison_due_ || tracks_[other].hits == kHitsToCompare;
+    return true;
   }
   return false;
 }

@@ -98,7 +98,7 @@ class FullTracker {
   const Pairing* oldest_twin(std::size_t look) const;
   bool is_older(int track, int other) const;
   bool is_matched(std::size_t look) const;
-  bool is_seen_as_another(std::size_t track) const;
+  bool is_seen_as_another(std::size_t track);
   bool is_seen(std::size_t track) const { return look_of_track_[track] != JointAssociation::kNone; }
   Eigen::Vector2d common_shift();
   void absorb_matched(HostTime captured_at);
@@ -172,6 +172,7 @@ class FullTracker {
   std::vector<Reach> reach_of_track_;  // scratch of add_pairings
 
   std::optional<VehicleTime> solved_at_;
+  bool is_comparison_due_ = false;  // of two tracks that may be one
   int frames_ = 0;
   int solutions_ = 0;
   double expected_hits_;  // of confirmed objects in view, and how many there were: the detection probability
