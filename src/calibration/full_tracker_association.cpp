@@ -135,7 +135,7 @@ const Pairing* FullTracker::oldest_twin(std::size_t look) const {
   for (const Pairing& pairing : association_.pairings()) {
     if (!is_of_look(pairing) || pairing.track == oldest->track) continue;
     const Track& twin = tracks_[static_cast<std::size_t>(pairing.track)];
-    if (twin.hits > 1 || neighbours.are_apart(twin.id)) return nullptr;
+    if (twin.hits >= kHitsToCompare || neighbours.are_apart(twin.id)) return nullptr;
     ++twins;
   }
   return twins > 0 ? oldest : nullptr;

@@ -129,6 +129,13 @@ void FullTracker::merge_compatible() {
       }
     }
   }
+  for (std::size_t k = 0; k < tracks_.size(); ++k)
+    estimates_[k].is_compared = tracks_[k].hits >= kHitsToCompare;
+}
+
+/// Known well enough, and not compared with others since.
+bool FullTracker::is_to_be_compared(std::size_t track) const {
+  return tracks_[track].hits >= kHitsToCompare && !estimates_[track].is_compared;
 }
 
 }  // namespace geoloc

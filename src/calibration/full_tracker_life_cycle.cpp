@@ -47,7 +47,7 @@ bool FullTracker::is_seen_as_another(std::size_t k) {
   for (std::size_t other = 0; other < tracks_.size(); ++other) {
     const bool is_young = tracks_[other].id > tracks_[k].id && tracks_[other].hits <= kHitsToCompare;
     if (!is_young || !is_seen(other) || !are_not_told_apart(k, other)) continue;
-    is_comparison_due_ = is_comparison_due_ || tracks_[other].hits == kHitsToCompare;
+    is_comparison_due_ = is_comparison_due_ || is_to_be_compared(other);
     return true;
   }
   return false;
@@ -56,7 +56,10 @@ bool FullTracker::is_seen_as_another(std::size_t k) {
 void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
   detection_probability_of_track_.assign(tracks_.size(), 0.0);
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    if (is_in_doubt_[k]) continue;
+    if (is_in_doubt_[k]) {
+      is_comparison_due_ = is_comparison_due_ || is_to_be_compared(k);
+      continue;
+    }
     const bool is_seen_now = is_seen(k);
     if (is_seen_now && tracks_[k].status != TrackStatus::kConfirmed) continue;
     const double probability = detection_probability(k, projector, view);

@@ -66,6 +66,7 @@ class FullTracker {
     Neighbours neighbours;
     Mixture mixture;
     VehicleTime last_look{};
+    bool is_compared = false;                                     // with others, since it can be
     bool is_known = false;                                        // its surveyed place is in the sums
     Eigen::Matrix2d pixel_information = Eigen::Matrix2d::Zero();  // sum of the looks'
     double size_m = 0.0;                                          // apparent, mean
@@ -115,6 +116,7 @@ class FullTracker {
   void merge_compatible();
   bool are_not_told_apart(std::size_t a, std::size_t b) const;
   bool may_be_one(std::size_t a, std::size_t b) const;
+  bool is_to_be_compared(std::size_t track) const;
   Eigen::Matrix2d covariance_of_difference(std::size_t a, std::size_t b) const;
   double noise_share(const Track& track) const;
   double shared_share_of_noise(Duration pause) const;
