@@ -65,7 +65,7 @@ def cell(errors: CentreErrors) -> str:
 
 
 def centre_table(errors: CentreErrors) -> list[str]:
-    whole = errors.where(errors.visible >= WHOLE)
+    whole = errors.where((errors.visible >= WHOLE) & ~errors.is_cut)
     lines = [
         "| shorter side | " + " | ".join(f"tilt {low}-{high}°" for low, high in TILT_CLASSES) + " | all |"
     ]
@@ -74,8 +74,9 @@ def centre_table(errors: CentreErrors) -> list[str]:
         row = whole.where((whole.side >= low) & (whole.side < high))
         cells = [cell(row.where((row.tilt_deg >= a) & (row.tilt_deg < b))) for a, b in TILT_CLASSES]
         lines.append(f"| {low}-{high} px | " + " | ".join([*cells, cell(row)]) + " |")
-    covered = errors.where(errors.visible < WHOLE)
-    lines.append("| cut off or partly covered" + " | " * (1 + len(TILT_CLASSES)) + f"{cell(covered)} |")
+    covered = (errors.visible < WHOLE) & ~errors.is_cut
+    for name, chosen in (("partly covered", covered), ("cut by the picture's edge", errors.is_cut)):
+        lines.append(f"| {name}" + " | " * (1 + len(TILT_CLASSES)) + f"{cell(errors.where(chosen))} |")
     return lines
 
 

@@ -60,6 +60,7 @@ class CentreErrors:
     box_size: np.ndarray  # M: root of the area of the box that was found
     tilt_deg: np.ndarray  # M
     visible: np.ndarray  # M
+    is_cut: np.ndarray  # M: by the picture's edge; such a box is of the part inside, and so is its centre
     stated: np.ndarray  # M: sigma as the detector states it [px], NaN: not
 
     def where(self, chosen: np.ndarray) -> "CentreErrors":
@@ -79,6 +80,12 @@ class CentreErrors:
         return float(1.4826 * np.median(np.abs(self.error - np.median(self.error, 0))))
 
 
+def reaches_out(example: Example, target: int) -> bool:
+    height, width = example.image.shape[:2]
+    centre, size = example.targets[target, :2], example.targets[target, 2:]
+    return bool((centre < 0.5 * size).any() or (centre + 0.5 * size > (width, height)).any())
+
+
 def centre_errors(found: list[Found], examples: list[Example], threshold: float) -> CentreErrors:
     right = [one for one in found if one.target >= 0 and one.counts and one.confidence >= threshold]
     truth = np.array([examples[one.picture].targets[one.target] for one in right]).reshape(-1, 4)
@@ -89,6 +96,7 @@ def centre_errors(found: list[Found], examples: list[Example], threshold: float)
         np.sqrt(boxes[:, 2:].prod(1)),
         np.array([examples[one.picture].tilt_deg[one.target] for one in right]),
         np.array([examples[one.picture].visible[one.target] for one in right]),
+        np.array([reaches_out(examples[one.picture], one.target) for one in right], bool),
         np.array([one.sigma_px for one in right]),
     )
 

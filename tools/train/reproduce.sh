@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # tools/train/reproduce.sh [OUT]: pictures, training and the figures of docs/model.md, from a checkout that is built
-# (build/release/bin/geoloc_sim exists). OUT (out/model) takes 24 GB. What exists there is kept: an interrupted run goes on.
+# (build/release/bin/geoloc_sim exists). OUT (out/model) takes 27 GB. What exists there is kept: an interrupted run goes on.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$ROOT"
