@@ -133,9 +133,9 @@ void FullTracker::merge_compatible() {
     estimates_[k].is_compared = tracks_[k].hits >= kHitsToCompare;
 }
 
-/// Known well enough, and not compared with others since.
-bool FullTracker::is_to_be_compared(std::size_t track) const {
-  return tracks_[track].hits >= kHitsToCompare && !estimates_[track].is_compared;
+/// A track that may be another's twin does not wait for the next solution, once it is known well enough.
+void FullTracker::compare_soon(std::size_t track) {
+  if (tracks_[track].hits >= kHitsToCompare && !estimates_[track].is_compared) is_comparison_due_ = true;
 }
 
 }  // namespace geoloc

@@ -40,24 +40,21 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
 }
 
 /// A younger track that may be the same object has this frame's look: begun when the vehicle came back with
-/// another drift, it would outlive the older one, and all that this one knows. As soon as the two can be
-/// compared they are.
-bool FullTracker::is_seen_as_another(std::size_t k) {
-  if (tracks_[k].status != TrackStatus::kConfirmed) return false;
+/// another drift, it would outlive the older one, and all that this one knows. nullopt: there is none.
+std::optional<std::size_t> FullTracker::seen_as(std::size_t k) const {
+  if (tracks_[k].status != TrackStatus::kConfirmed) return std::nullopt;
   for (std::size_t other = 0; other < tracks_.size(); ++other) {
     const bool is_young = tracks_[other].id > tracks_[k].id && tracks_[other].hits <= kHitsToCompare;
-    if (!is_young || !is_seen(other) || !are_not_told_apart(k, other)) continue;
-    is_comparison_due_ = is_comparison_due_ || is_to_be_compared(other);
-    return true;
+    if (is_young && is_seen(other) && are_not_told_apart(k, other)) return other;
   }
-  return false;
+  return std::nullopt;
 }
 
 void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
   detection_probability_of_track_.assign(tracks_.size(), 0.0);
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     if (is_in_doubt_[k]) {
-      is_comparison_due_ = is_comparison_due_ || is_to_be_compared(k);
+      compare_soon(k);
       continue;
     }
     const bool is_seen_now = is_seen(k);
@@ -65,16 +62,22 @@ void FullTracker::weigh_missed(const Projector& projector, const FrameView& view
     const double probability = detection_probability(k, projector, view);
     if (probability <= 0.0) continue;
     detection_probability_of_track_[k] = probability;
-    if (!is_seen_now && is_seen_as_another(k)) continue;
     if (!is_seen_now) {
+      if (const auto other = seen_as(k)) {
+        compare_soon(*other);
+        continue;
+      }
       estimates_[k].existence.miss(probability);
       ++tracks_[k].penalty;
     }
-    if (tracks_[k].status == TrackStatus::kConfirmed) {
-      opportunities_ += 1.0;
-      expected_hits_ += is_seen_now ? 1.0 : 0.0;
-    }
+    if (tracks_[k].status == TrackStatus::kConfirmed) count_opportunity(is_seen_now);
   }
+}
+
+/// For the detection probability.
+void FullTracker::count_opportunity(bool was_seen) {
+  opportunities_ += 1.0;
+  expected_hits_ += was_seen ? 1.0 : 0.0;
   if (opportunities_ > kMostOpportunities) {
     opportunities_ *= 0.5;
     expected_hits_ *= 0.5;

@@ -99,7 +99,7 @@ class FullTracker {
   const Pairing* oldest_twin(std::size_t look) const;
   bool is_older(int track, int other) const;
   bool is_matched(std::size_t look) const;
-  bool is_seen_as_another(std::size_t track);
+  std::optional<std::size_t> seen_as(std::size_t track) const;
   bool is_seen(std::size_t track) const { return look_of_track_[track] != JointAssociation::kNone; }
   Eigen::Vector2d common_shift();
   void absorb_matched(HostTime captured_at);
@@ -108,6 +108,7 @@ class FullTracker {
   bool is_drawn_aside(std::size_t track, std::size_t younger) const;
   double counted_detection_probability() const;
   void weigh_missed(const Projector& projector, const FrameView& view);
+  void count_opportunity(bool was_seen);
   void start_tentative(HostTime captured_at);
   void remove_improbable();
   void solve_if_due(VehicleTime now);
@@ -116,7 +117,7 @@ class FullTracker {
   void merge_compatible();
   bool are_not_told_apart(std::size_t a, std::size_t b) const;
   bool may_be_one(std::size_t a, std::size_t b) const;
-  bool is_to_be_compared(std::size_t track) const;
+  void compare_soon(std::size_t track);
   Eigen::Matrix2d covariance_of_difference(std::size_t a, std::size_t b) const;
   double noise_share(const Track& track) const;
   double shared_share_of_noise(Duration pause) const;
