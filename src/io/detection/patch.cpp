@@ -15,7 +15,7 @@ constexpr double kLeastSide_px = 16.0;
 constexpr double kLeastContrast = 2.0;  // grey levels: what has less is noise, and is not stretched
 constexpr double kSurelyNone = 0.05;
 constexpr double kSurelyOne = 0.98;
-constexpr double kNoise = 1e-6;                   // scores nearer to 0 and 1 say no more
+constexpr double kLeastScore = 1e-6;              // scores nearer to 0 and 1 say no more
 const cv::Matx13f kLuma{0.114F, 0.587F, 0.299F};  // shares of blue, green and red
 
 int rounded(double value) {
@@ -23,7 +23,7 @@ int rounded(double value) {
 }
 
 double logit(double score) {
-  const double clamped = std::clamp(score, kNoise, 1.0 - kNoise);
+  const double clamped = std::clamp(score, kLeastScore, 1.0 - kLeastScore);
   return std::log(clamped / (1.0 - clamped));
 }
 
