@@ -4,7 +4,7 @@
 BUILD_PACKAGES=(
   g++ make cmake ninja-build pkg-config python3 python3-venv
   libeigen3-dev libgeographiclib-dev
-  nlohmann-json3-dev libcli11-dev libcpp-httplib-dev libfmt-dev libyaml-cpp-dev zlib1g-dev
+  nlohmann-json3-dev libcli11-dev libboost-dev libfmt-dev libyaml-cpp-dev zlib1g-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-dnn-dev
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstrtspserver-1.0-dev
 )

@@ -7,12 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 
 namespace geoloc::io {
 namespace {
 
-constexpr std::size_t kReadBuffer = 4096;
 constexpr std::chrono::milliseconds kFarewell{250};
 
 std::chrono::milliseconds until(std::chrono::steady_clock::time_point deadline) {
@@ -26,8 +24,7 @@ ClientSocket::ClientSocket(int descriptor, int stop_descriptor, const HttpLimits
     : descriptor_(descriptor),
       stop_descriptor_(stop_descriptor),
       limits_(limits),
-      head_deadline_(Clock::now() + limits.head_time),
-      buffer_(kReadBuffer) {}
+      head_deadline_(Clock::now() + limits.head_time) {}
 
 bool ClientSocket::wait_for(short events, std::chrono::milliseconds timeout) const {
   std::array<pollfd, 2> waiting{{{descriptor_, events, 0}, {stop_descriptor_, POLLIN, 0}}};
@@ -37,33 +34,28 @@ bool ClientSocket::wait_for(short events, std::chrono::milliseconds timeout) con
   return !is_stopping && (waiting[0].revents & events) != 0;
 }
 
-bool ClientSocket::fill() {
-  if (total_read_ >= limits_.head_bytes) return false;
-  if (!wait_for(POLLIN, until(head_deadline_))) return false;
-  const std::size_t room = std::min(buffer_.size(), limits_.head_bytes - total_read_);
-  const ssize_t size = recv(descriptor_, buffer_.data(), room, MSG_DONTWAIT);
-  if (size <= 0) return false;
-  next_ = 0;
-  filled_ = static_cast<std::size_t>(size);
-  total_read_ += filled_;
+std::ptrdiff_t ClientSocket::read(char* data, std::size_t size) {
+  if (!wait_for(POLLIN, until(head_deadline_))) return -1;
+  const ssize_t count = recv(descriptor_, data, size, MSG_DONTWAIT);
+  return count > 0 ? count : -1;
+}
+
+bool ClientSocket::write(std::string_view text) {
+  while (!text.empty()) {
+    const std::ptrdiff_t written = write_some(text);
+    if (written < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
   return true;
 }
 
-std::ptrdiff_t ClientSocket::read(char* data, std::size_t size) {
-  if (next_ == filled_ && !fill()) return -1;
-  const std::size_t count = std::min(size, filled_ - next_);
-  std::memcpy(data, buffer_.data() + next_, count);
-  next_ += count;
-  return static_cast<std::ptrdiff_t>(count);
-}
-
-std::ptrdiff_t ClientSocket::write(const char* data, std::size_t size) {
+std::ptrdiff_t ClientSocket::write_some(std::string_view text) {
   const double patience_s = std::chrono::duration<double>(limits_.write_time).count();
   const auto began = Clock::now();
   const auto patience = std::chrono::duration_cast<std::chrono::milliseconds>(
       std::chrono::duration<double>(std::max(0.0, patience_s - behind_s_)));
   if (!wait_for(POLLOUT, patience)) return -1;
-  const ssize_t written = send(descriptor_, data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+  const ssize_t written = send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
   if (written <= 0) return -1;
   const double waited_s = std::chrono::duration<double>(Clock::now() - began).count();
   behind_s_ =
@@ -79,8 +71,9 @@ bool ClientSocket::is_open() const {
 void ClientSocket::end() {
   shutdown(descriptor_, SHUT_WR);
   const auto deadline = Clock::now() + kFarewell;
+  std::array<char, 4096> ignored{};
   while (wait_for(POLLIN, until(deadline)) && Clock::now() < deadline) {
-    if (recv(descriptor_, buffer_.data(), buffer_.size(), MSG_DONTWAIT) <= 0) return;
+    if (recv(descriptor_, ignored.data(), ignored.size(), MSG_DONTWAIT) <= 0) return;
   }
 }
 

@@ -1,196 +1,159 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "http_server.hpp"
 
-#include <httplib.h>
 #include <sys/eventfd.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
-#include <cerrno>
-#include <stdexcept>
-#include <system_error>
+#include <exception>
+#include <string_view>
 #include <thread>
 
 #include "client_socket.hpp"
+#include "http_message.hpp"
+#include "listening_socket.hpp"
 #include "worker_pool.hpp"
 
 namespace geoloc::io {
 namespace {
 
-constexpr int kBacklog = 64;
 constexpr int kSendBuffer = 131072;  // what a slow page is behind at most, besides the event it is being sent
-constexpr const char* kBusy =
+constexpr std::size_t kReadBuffer = 4096;
+constexpr std::string_view kBusy =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
 
-/// The bounds of ClientSocket under cpp-httplib's protocol.
-class BoundedStream final : public httplib::Stream {
- public:
-  explicit BoundedStream(ClientSocket& socket) : socket_(socket) {}
-  bool is_readable() const override { return socket_.is_open(); }
-  bool is_writable() const override { return socket_.is_open(); }
-  ssize_t read(char* data, std::size_t size) override { return socket_.read(data, size); }
-  ssize_t write(const char* data, std::size_t size) override { return socket_.write(data, size); }
-  void get_remote_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
-  void get_local_ip_and_port(std::string& /*ip*/, int& /*port*/) const override {}
-  socket_t socket() const override { return socket_.descriptor(); }
-
- private:
-  ClientSocket& socket_;
-};
-
-/// Set while the accepting thread itself serves a client, because no other is free.
-thread_local bool is_turning_away = false;
-
-class PoolQueue final : public httplib::TaskQueue {
- public:
-  explicit PoolQueue(std::size_t most_threads) : pool_(most_threads) {}
-  void enqueue(std::function<void()> serve) override {
-    if (pool_.try_run(serve)) return;
-    is_turning_away = true;
-    serve();
-    is_turning_away = false;
-  }
-  void shutdown() override { pool_.finish(); }
-
- private:
-  WorkerPool pool_;
-};
-
-[[noreturn]] void fail_to_listen(const HttpEndpoint& endpoint, int error) {
-  std::string message = endpoint.host + ":" + std::to_string(endpoint.port) + ": " +
-                        (error == 0 ? "cannot listen there" : std::generic_category().message(error));
-  if (error == EADDRINUSE) message += "; another program holds the port: take another";
-  if (error == EACCES) message += "; ports below 1024 are for the system, take another";
-  if (error == EADDRNOTAVAIL || error == 0) message += "; the host must be an address of this computer";
-  throw std::runtime_error(message);
+PageAnswer too_many_pages() {
+  return {503, "text/plain", "Too many pages are open.\n", false};
 }
+
+/// nullopt where the client leaves, or takes too long, before its request is whole.
+std::optional<std::variant<PageRequest, Refusal>> read_request(ClientSocket& socket, std::size_t most_bytes) {
+  RequestHead head(most_bytes);
+  std::array<char, kReadBuffer> bytes{};
+  while (true) {
+    const std::ptrdiff_t count = socket.read(bytes.data(), bytes.size());
+    if (count < 0) return std::nullopt;
+    if (auto request = head.add({bytes.data(), static_cast<std::size_t>(count)})) return request;
+  }
+}
+
+/// One of a bounded number of places, held while it lives.
+class Place {
+ public:
+  Place(std::atomic<std::size_t>& taken, std::size_t most)
+      : taken_(taken), is_held_(taken.fetch_add(1) < most) {}
+  ~Place() { taken_.fetch_sub(1); }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  bool is_held() const { return is_held_; }
+
+ private:
+  std::atomic<std::size_t>& taken_;
+  bool is_held_;
+};
 
 }  // namespace
 
-class HttpServer::Implementation final : public httplib::Server {
+class HttpServer::Implementation {
  public:
   Implementation(const HttpEndpoint& endpoint, const HttpLimits& limits, const Headers& headers,
                  Answer answer, std::function<Events()> open_events);
-  ~Implementation() override;
+  ~Implementation();
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
 
-  std::uint16_t port() const { return port_; }
+  std::uint16_t port() const { return listening_.port(); }
 
  private:
-  using StreamTicket = std::shared_ptr<std::atomic<std::size_t>>;
-
-  bool process_and_close_socket(socket_t descriptor) override;
-  void talk(socket_t descriptor);
-  void serve(const httplib::Request& request, httplib::Response& response);
-  void stream_events(httplib::Response& response);
-  void listen_at(const HttpEndpoint& endpoint);
+  void accept_clients();
+  void serve(int descriptor);
+  void talk(ClientSocket& socket);
+  void answer(ClientSocket& socket, const PageRequest& request);
+  void send(ClientSocket& socket, const PageAnswer& answer, bool with_body) const;
+  void stream_events(ClientSocket& socket, const PageAnswer& answer);
 
   HttpLimits limits_;
+  Headers headers_;
   Answer answer_;
   std::function<Events()> open_events_;
-  StreamTicket open_streams_ = std::make_shared<std::atomic<std::size_t>>(0);
-  int stop_descriptor_ = -1;
-  std::uint16_t port_ = 0;
+  ListeningSocket listening_;
+  WorkerPool pool_;
+  std::atomic<std::size_t> open_streams_{0};
+  int stop_descriptor_;
   std::thread acceptor_;
 };
 
 HttpServer::Implementation::Implementation(const HttpEndpoint& endpoint, const HttpLimits& limits,
                                            const Headers& headers, Answer answer,
                                            std::function<Events()> open_events)
-    : limits_(limits), answer_(std::move(answer)), open_events_(std::move(open_events)) {
-  httplib::Headers defaults;
-  for (const auto& [name, value] : headers) defaults.emplace(name, value);
-  set_default_headers(defaults);
-  set_tcp_nodelay(true);
-  new_task_queue = [this] { return new PoolQueue(limits_.connections); };
-  // Everything is answered here: nothing is looked up on a disk, and no body is read.
-  set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-    serve(request, response);
-    return HandlerResponse::Handled;
-  });
-  listen_at(endpoint);
-  stop_descriptor_ = eventfd(0, EFD_CLOEXEC);
-  acceptor_ = std::thread([this] { listen_after_bind(); });
-  while (!is_running()) std::this_thread::sleep_for(std::chrono::milliseconds{1});
-}
-
-void HttpServer::Implementation::listen_at(const HttpEndpoint& endpoint) {
-  // In place of the library's own, which let two programs share a port. Accepted connections inherit them.
-  set_socket_options([](socket_t descriptor) {
-    const int yes = 1;
-    setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    setsockopt(descriptor, SOL_SOCKET, SO_SNDBUF, &kSendBuffer, sizeof kSendBuffer);
-  });
-  errno = 0;
-  const int port = endpoint.port == 0 ? bind_to_any_port(endpoint.host)
-                                      : (bind_to_port(endpoint.host, endpoint.port) ? endpoint.port : -1);
-  if (port <= 0) fail_to_listen(endpoint, errno);
-  port_ = static_cast<std::uint16_t>(port);
-  ::listen(svr_sock_, kBacklog);
-}
+    : limits_(limits),
+      headers_(headers),
+      answer_(std::move(answer)),
+      open_events_(std::move(open_events)),
+      listening_(endpoint, kSendBuffer),
+      pool_(limits.connections),
+      stop_descriptor_(eventfd(0, EFD_CLOEXEC)),
+      acceptor_([this] { accept_clients(); }) {}
 
 HttpServer::Implementation::~Implementation() {
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t woken = ::write(stop_descriptor_, &one, sizeof one);
-  stop();
   acceptor_.join();
+  pool_.finish();
   close(stop_descriptor_);
 }
 
-void HttpServer::Implementation::talk(socket_t descriptor) {
-  ClientSocket socket(descriptor, stop_descriptor_, limits_);
-  BoundedStream stream(socket);
-  bool is_closed = false;
-  process_request(stream, true, is_closed, [](httplib::Request& request) {
-    request.ranges.clear();  // a small request must not ask for a large answer
-    request.headers.erase("Accept-Encoding");
-  });
-  socket.end();
+void HttpServer::Implementation::accept_clients() {
+  for (int client = 0; (client = listening_.accept(stop_descriptor_)) >= 0;) {
+    if (pool_.try_run([this, client] { serve(client); })) continue;
+    ::send(client, kBusy.data(), kBusy.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    close(client);
+  }
 }
 
-bool HttpServer::Implementation::process_and_close_socket(socket_t descriptor) {
-  if (is_turning_away) {
-    send(descriptor, kBusy, std::char_traits<char>::length(kBusy), MSG_NOSIGNAL | MSG_DONTWAIT);
-  } else {
-    try {
-      talk(descriptor);
-    } catch (const std::exception&) {  // out of memory, at worst: this client is given up, not the program
-    }
+void HttpServer::Implementation::serve(int descriptor) {
+  try {
+    ClientSocket socket(descriptor, stop_descriptor_, limits_);
+    talk(socket);
+    socket.end();
+  } catch (const std::exception&) {  // out of memory, at worst: this client is given up, not the program
   }
   close(descriptor);
-  return true;
 }
 
-void HttpServer::Implementation::serve(const httplib::Request& request, httplib::Response& response) {
-  PageAnswer answer =
-      answer_({request.method, request.path, request.get_header_value("Host"),
-               request.get_header_value("Sec-Fetch-Site"), request.get_header_value("Sec-Fetch-Mode")});
-  response.status = answer.status;
-  if (answer.is_event_stream && request.method == "GET") {
-    stream_events(response);
+void HttpServer::Implementation::talk(ClientSocket& socket) {
+  const auto request = read_request(socket, limits_.head_bytes);
+  if (!request) return;
+  if (const Refusal* const refusal = std::get_if<Refusal>(&*request)) {
+    send(socket, {refusal->status, "", "", false}, true);
   } else {
-    response.set_content(answer.body, answer.type);
+    answer(socket, std::get<PageRequest>(*request));
   }
 }
 
-void HttpServer::Implementation::stream_events(httplib::Response& response) {
-  if (open_streams_->fetch_add(1) >= limits_.event_streams) {
-    open_streams_->fetch_sub(1);
-    response.status = 503;
-    response.set_header("Retry-After", "5");
-    response.set_content("Too many pages are open.\n", "text/plain");
-    return;
+void HttpServer::Implementation::answer(ClientSocket& socket, const PageRequest& request) {
+  const PageAnswer answer = answer_(request);
+  const bool is_get = request.method == "GET";
+  if (!answer.is_event_stream || !is_get) return send(socket, answer, request.method != "HEAD");
+  const Place place(open_streams_, limits_.event_streams);
+  if (!place.is_held()) return send(socket, too_many_pages(), true);
+  stream_events(socket, answer);
+}
+
+void HttpServer::Implementation::send(ClientSocket& socket, const PageAnswer& answer, bool with_body) const {
+  const std::string head = answer_head(answer, headers_, answer.body.size());
+  if (socket.write(head) && with_body) socket.write(answer.body);
+}
+
+void HttpServer::Implementation::stream_events(ClientSocket& socket, const PageAnswer& answer) {
+  if (!socket.write(answer_head(answer, headers_, std::nullopt))) return;
+  const Events next = open_events_();
+  while (socket.is_open()) {
+    const std::optional<std::string> text = next();
+    if (!text || !socket.write(*text)) return;
   }
-  response.set_chunked_content_provider(
-      "text/event-stream",
-      [next = open_events_()](std::size_t /*offset*/, httplib::DataSink& sink) {
-        const std::optional<std::string> text = next();
-        if (!text) {
-          sink.done();
-          return true;
-        }
-        return sink.write(text->data(), text->size());
-      },
-      [streams = open_streams_](bool /*is_whole*/) { streams->fetch_sub(1); });
 }
 
 HttpServer::HttpServer(const HttpEndpoint& endpoint, const HttpLimits& limits, const Headers& headers,

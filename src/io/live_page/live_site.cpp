@@ -127,9 +127,7 @@ PageAnswer LiveSite::answer(const PageRequest& request) const {
 PageAnswer LiveSite::dispatch(const PageRequest& request) const {
   const std::string& path = request.path;
   if (path == "/events") {
-    PageAnswer answer;
-    answer.is_event_stream = true;
-    return answer;
+    return {200, "text/event-stream", "", true};
   }
   if (path == "/frame") {
     board_.note_viewer();

@@ -10,7 +10,7 @@ class HttpServer::Implementation {};
 HttpServer::HttpServer(const HttpEndpoint& /*endpoint*/, const HttpLimits& /*limits*/,
                        const Headers& /*headers*/, Answer /*answer*/,
                        std::function<Events()> /*open_events*/) {
-  throw std::runtime_error("this program was built without cpp-httplib 0.11 (Debian: libcpp-httplib-dev)");
+  throw std::runtime_error("this program was built without Boost 1.74 or newer (Debian: libboost-dev)");
 }
 
 HttpServer::~HttpServer() = default;
