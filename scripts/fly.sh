@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# scripts/fly.sh BIN_FOLDER OUT_FOLDER [OPTION-OF-GEOLOC_SIM…] -- [OPTION-OF-GEOLOC_APP…]
+# Flies geoloc_sim and watches it with geoloc_app, over the loopback. When either ends early, the other is stopped and the
+# reason is the last thing shown.
+set -euo pipefail
+[ $# -ge 2 ] || { sed -n '3,5s/^# //p' "$0" >&2; exit 2; }
+say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
+
+bin=$1 out=$2 sim_options=() app_options=()
+shift 2
+while [ $# -gt 0 ] && [ "$1" != -- ]; do sim_options+=("$1"); shift; done
+[ $# -eq 0 ] || { shift; app_options=("$@"); }
+[ ! -e "$out" ] || { echo "$out exists already; name another folder with --out" >&2; exit 2; }
+mkdir -p "$out"
+udp_port=$((20000 + RANDOM % 10000)) rtsp_port=$((30000 + RANDOM % 10000))
+
+sim= app=
+stop_all() {
+  for child in $app $sim; do kill -INT "$child" 2>/dev/null || true; done
+  for _ in $(seq 15); do kill -0 $app $sim 2>/dev/null || return 0; sleep 0.1; done
+  kill -KILL $app $sim 2>/dev/null || true
+}
+trap stop_all EXIT
+trap 'exit 130' INT TERM
+
+# fail PROGRAM STATUS LOG: the program's own words, at the end, where they are read.
+fail() {
+  local words
+  sleep 0.1  # tee's
+  words=$(tr '\r' '\n' <"$3" | grep -v '^[[:space:]]*$' | tail -n 5) || true
+  say "$1 ended early, with status $2:"
+  printf '%s\n' "${words:-(it said nothing)}" >&2
+  exit 1
+}
+
+say "Flying ${sim_options[*]}"
+"$bin/geoloc_sim" "${sim_options[@]}" --udp "127.0.0.1:$udp_port" --rtsp-port "$rtsp_port" \
+  --truth "$out/truth.geojson" 2>"$out/sim.log" &
+sim=$!
+for _ in $(seq 100); do [ -s "$out/truth.geojson" ] && break; kill -0 "$sim" 2>/dev/null || break; sleep 0.1; done
+
+if [ -s "$out/truth.geojson" ]; then
+  "$bin/geoloc_app" --udp "127.0.0.1:$udp_port" --rtsp "rtsp://127.0.0.1:$rtsp_port/cam" "${app_options[@]}" \
+    --truth "$out/truth.geojson" --out "$out/objects.geojson" --raw "$out/raw.csv" --picture "$out/picture.svg" \
+    --record "$out/recording" --http 0 2> >(tee "$out/app.log" >&2) &
+  app=$!
+fi
+
+status=0 ended=
+wait -n -p ended $sim $app || status=$?
+if [ "$ended" != "$sim" ]; then
+  app=
+  fail geoloc_app "$status" "$out/app.log"
+fi
+sim=
+[ "$status" -eq 0 ] && [ -n "$app" ] || fail geoloc_sim "$status" "$out/sim.log"
+sleep 1  # the last frames
+kill -INT "$app" 2>/dev/null || true
+wait "$app" || status=$?
+app=
+[ "$status" -eq 0 ] || fail geoloc_app "$status" "$out/app.log"
+
+say "Done: $(tr '\r' '\n' <"$out/app.log" | grep -o 'found [0-9]* / [0-9]*, RMSE.*' | tail -n 1)"
+printf '%-11s %s\n' objects "$out/objects.geojson" recording "$out/recording" picture "$out/picture.svg" \
+  'raw fixes' "$out/raw.csv"
+echo "Again, from the recording: cmake --build build/release --target geoloc_replay && $bin/geoloc_replay $out/recording --out again.geojson"
