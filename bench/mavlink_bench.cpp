@@ -57,7 +57,8 @@ void BM_FrameParser(benchmark::State& state) {
     for (std::size_t at = 0; at < bytes.size();) {
       at += parser.append(&bytes[at], std::min<std::size_t>(1400, bytes.size() - at));
       while (const auto frame = parser.next()) {
-        benchmark::DoNotOptimize(frame->payload);
+        const std::uint8_t* payload = frame->payload;
+        benchmark::DoNotOptimize(payload);
         ++found;
       }
     }

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Debian 12's packages, and how the scripts install them. Sourced.
+# The packages of Debian 12 and 13, which go by the same names, and how the scripts install them. Sourced.
 
 BUILD_PACKAGES=(
   g++ make cmake ninja-build pkg-config python3 python3-venv
@@ -13,7 +13,7 @@ RUN_PACKAGES=(
   gstreamer1.0-libav
 )
 TEST_PACKAGES=(git ccache chromium libgtest-dev libbenchmark-dev gdal-bin)
-LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-14-dev)
+LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-dev)
 OPENVINO_VERSION=2026.4.1  # of PyPI
 
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }

@@ -28,7 +28,8 @@ install_consumers
 [ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers see a build with OpenCV alone
 export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # what was compiled in one clone serves the next
 say "Configuring ($preset)"
-cmake --preset "$preset" "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+# A newer compiler may know new warnings, which are no fault of whoever runs the tests: .ci/run asks for errors.
+cmake --preset "$preset" -DGEOLOC_WARNINGS_AS_ERRORS=OFF "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 say "Building ($preset)"
 cmake --build "build/$preset"
 say "Testing ($preset)"

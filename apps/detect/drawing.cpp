@@ -33,8 +33,8 @@ cv::Point subpixel(double x, double y) {
 std::string label_of(const Detection& detection, const std::vector<std::string>& class_names) {
   constexpr std::size_t kLongest = 24;
   std::string name = class_names[static_cast<std::size_t>(detection.class_id)].substr(0, kLongest);
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  const auto is_unprintable = [](char c) { return c < ' ' || c > '~'; };
+  std::replace_if(name.begin(), name.end(), is_unprintable, '?');
   return fmt::format("{} {:.2f}", name, detection.confidence);
 }
 

@@ -25,9 +25,7 @@ void AssignmentSolver::reserve(int rows, int columns) {
 
 void AssignmentSolver::augment(const Eigen::Ref<const Eigen::MatrixXd>& costs, bool transposed,
                                double max_cost, int row, int columns) {
-  const auto at = [](auto& values, int i) -> auto& {
-    return values[static_cast<std::size_t>(i)];
-  };
+  const auto at = [](auto& values, int i) -> decltype(auto) { return values[static_cast<std::size_t>(i)]; };
   std::fill(shortest_.begin(), shortest_.end(), std::numeric_limits<double>::infinity());
   std::fill(visited_.begin(), visited_.end(), char{0});
   at(row_of_column_, 0) = row;

@@ -21,25 +21,29 @@ class QuietOpencv {
   cv::utils::logging::LogLevel level_;
 };
 
-[[noreturn]] void fail(const ModelFile& model, const char* action, const std::string& reason) {
-  const std::string name = model.name.string();
+/// As of 4.8 OpenCV runs what ultralytics exports. 4.6 fails at it. 4.7 does not always, but both take a
+/// Split into given sizes for one into equal parts (opencv/opencv#23482): wrong results, not an error.
+constexpr bool kRunsExports = CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 8);
+
+/// What makes the model run with an OpenCV that runs no exports.
+std::string conversion_of(const ModelFile& model) {
   const bool is_open = model.metadata.inputs.front().shape[2] == kUnknownLength;
   const std::string size = is_open ? " --input-size " + std::to_string(model.input.width_px) + " " +
                                          std::to_string(model.input.height_px)
                                    : "";
-  refuse_model(model.name, "OpenCV " CV_VERSION " cannot " + std::string{action} + " this model of opset " +
-                               std::to_string(model.metadata.opset) + " (" + one_line(reason) +
-                               "); convert it: python3 tools/onnx_for_opencv.py " + name + " " +
-                               model.name.stem().string() + "_opencv.onnx" + size +
-                               " (of float16 models, export half=False), or run it as it is with --backend "
-                               "openvino");
+  return "convert it: python3 tools/onnx_for_opencv.py " + model.name.string() + " " +
+         model.name.stem().string() + "_opencv.onnx" + size + " (of float16 models, export half=False), or ";
 }
 
-/// Before 4.8 (opencv/opencv#23482), OpenCV ignores the sizes and splits into equal parts: wrong results, not
-/// an error.
+[[noreturn]] void fail(const ModelFile& model, const char* action, const std::string& reason) {
+  refuse_model(model.name, "OpenCV " CV_VERSION " cannot " + std::string{action} + " this model of opset " +
+                               std::to_string(model.metadata.opset) + " (" + one_line(reason) + "); " +
+                               (kRunsExports ? "" : conversion_of(model)) +
+                               "run it as it is with --backend openvino");
+}
+
 void check_splits(const ModelFile& model) {
-  constexpr bool kIgnoresSizes = CV_VERSION_MAJOR < 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR < 8);
-  if (kIgnoresSizes && model.metadata.has_split_by_input)
+  if (!kRunsExports && model.metadata.has_split_by_input)
     fail(model, "run", "it does not know Split as of opset 13");
 }
 

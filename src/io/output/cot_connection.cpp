@@ -74,10 +74,10 @@ void CotConnection::set_multicast(int family) const {
     setsockopt(descriptor_, IPPROTO_IPV6, IPV6_MULTICAST_IF, &index, sizeof index);
     return;
   }
-  ip_mreqn interface {};
-  interface.imr_ifindex = static_cast<int>(index);
+  ip_mreqn multicast{};
+  multicast.imr_ifindex = static_cast<int>(index);
   setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_TTL, &ttl, sizeof ttl);
-  if (index != 0) setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_IF, &interface, sizeof interface);
+  if (index != 0) setsockopt(descriptor_, IPPROTO_IP, IP_MULTICAST_IF, &multicast, sizeof multicast);
 }
 
 void CotConnection::open(Clock::time_point now) {

@@ -33,9 +33,9 @@ std::vector<Detection> expected_detections(const nlohmann::json& fixture) {
 bool is_same(const Detection& a, const Detection& b) {
   const double differences[] = {a.box.x - b.box.x, a.box.y - b.box.y, a.box.width - b.box.width,
                                 a.box.height - b.box.height, a.sigma_px - b.sigma_px};
+  const auto is_small = [](double d) { return std::abs(d) < kTolerance_px; };
   return a.class_id == b.class_id && std::abs(a.confidence - b.confidence) < kMargin &&
-         std::all_of(std::begin(differences), std::end(differences),
-                     [](double d) { return std::abs(d) < kTolerance_px; });
+         std::all_of(std::begin(differences), std::end(differences), is_small);
 }
 
 /// Every clear detection of one list is in the other.

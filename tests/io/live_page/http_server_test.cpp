@@ -12,10 +12,9 @@ namespace {
 
 using testing::ask;
 using testing::get_request;
+using testing::kPatience;
 using testing::LoopbackClient;
 using namespace std::chrono_literals;
-
-constexpr auto kPatience = 20s;
 
 HttpLimits impatient() {
   HttpLimits limits;

@@ -17,12 +17,11 @@ namespace {
 
 using testing::ask;
 using testing::get_request;
+using testing::kPatience;
 using testing::LoopbackClient;
 using testing::page_frame;
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
-
-constexpr auto kPatience = 20s;  // for what must come; only a slow machine needs it
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();

@@ -7,6 +7,9 @@
 
 namespace geoloc::io::testing {
 
+/// For what must come; only a slow machine needs it.
+constexpr std::chrono::seconds kPatience{20};
+
 /// A TCP connection to a port of this computer that does as little of HTTP as a test wants.
 class LoopbackClient {
  public:

@@ -46,9 +46,9 @@ TEST(CotConnection, MulticastStaysOnOneNetworkAndOnTheInterfaceGiven) {
   socklen_t size = sizeof ttl;
   ASSERT_EQ(getsockopt(sender.connection.descriptor(), IPPROTO_IP, IP_MULTICAST_TTL, &ttl, &size), 0);
   EXPECT_EQ(ttl, 1);
-  ip_mreqn interface {};
-  size = sizeof interface;
-  ASSERT_EQ(getsockopt(sender.connection.descriptor(), IPPROTO_IP, IP_MULTICAST_IF, &interface, &size), 0);
+  ip_mreqn multicast{};
+  size = sizeof multicast;
+  ASSERT_EQ(getsockopt(sender.connection.descriptor(), IPPROTO_IP, IP_MULTICAST_IF, &multicast, &size), 0);
   sockaddr_in peer{};
   size = sizeof peer;
   ASSERT_EQ(getpeername(sender.connection.descriptor(), reinterpret_cast<sockaddr*>(&peer), &size), 0);

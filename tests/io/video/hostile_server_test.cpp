@@ -93,8 +93,7 @@ void expect_steady_failure(const std::string& url, const HostClock& clock) {
 }
 
 TEST(HostileServer, NobodyListens) {
-  std::string url;
-  { url = Listener{""}.url(); }
+  const std::string url = Listener{""}.url();  // gone again
   expect_steady_failure(url, HostClock{});
 }
 
