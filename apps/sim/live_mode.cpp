@@ -13,7 +13,6 @@
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "geoloc/sim/flight_camera.hpp"
 #include "geoloc/sim/rtsp_camera.hpp"
-#include "geoloc/sim/scenario.hpp"
 #include "geoloc/sim/udp_vehicle.hpp"
 
 namespace geoloc::sim {
@@ -37,7 +36,7 @@ struct LiveRun {
   LiveRun(const RunOptions& run, const LiveOptions& options, std::uint64_t seed)
       : settings(to_settings(run, seed)),
         flight(load_flight(run)),
-        targets_in_enu(make_scenario(settings.scenario, seed)),
+        targets_in_enu(make_targets(settings)),
         flight_clock(live_span(settings, flight.truth), options.speed),
         vehicle(flight, {io::parse_udp_endpoint(options.udp), options.link, seed, options.reboot_at_s},
                 flight_clock, host_clock),

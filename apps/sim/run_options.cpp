@@ -2,8 +2,10 @@
 #include "run_options.hpp"
 
 #include <filesystem>
+#include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/sim/flight_variants.hpp"
 
 namespace geoloc::sim {
 
@@ -19,6 +21,10 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kFlight, "--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
   add(kFlight, "--scenario", settings.scenario, "Targets: 1 spread, 2 tight clusters, 3 grid")
       ->capture_default_str();
+  add(kFlight, "--pairs-m", settings.pair_distance_m, "Targets in pairs so far apart instead, m");
+  add(kFlight, "--raise-m", options.raised_m, "Fly so much higher than was flown (20 m), m")
+      ->capture_default_str()
+      ->check(CLI::Range(-15.0, 400.0));
   add(kFlight, "--start-s", settings.start_s, "Begin, s on the vehicle's clock [at survey height]");
   add(kFlight, "--end-s", settings.end_s, "End, s on the vehicle's clock [survey height left]");
 
@@ -58,7 +64,8 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed) {
 
 Flight load_flight(const RunOptions& options) {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  return load_flight(find_flights(options.data_folder, program), options.flight);
+  Flight flight = load_flight(find_flights(options.data_folder, program), options.flight);
+  return options.raised_m == 0.0 ? std::move(flight) : raised(flight, options.raised_m);
 }
 
 }  // namespace geoloc::sim

@@ -14,6 +14,7 @@ namespace geoloc::sim {
 struct RunOptions {
   std::string flight = "stock_path1";
   std::optional<std::string> data_folder;
+  double raised_m = 0.0;
   double horizontal_fov_deg = 70.0;
   std::array<double, 5> distortion{};
   bool uncalibrated_lens = false;

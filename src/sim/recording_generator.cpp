@@ -9,7 +9,6 @@
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "geoloc/sim/random.hpp"
 #include "geoloc/sim/random_stream.hpp"
-#include "geoloc/sim/scenario.hpp"
 
 namespace geoloc::sim {
 
@@ -73,7 +72,7 @@ std::string injected_json(const Flight& flight, const RecordingSettings& setting
 void write_recording(const std::filesystem::path& folder, const Flight& flight,
                      const RecordingSettings& settings) {
   throw_if_any(settings.problems());
-  const std::vector<Eigen::Vector2d> targets_in_enu = make_scenario(settings.run.scenario, settings.run.seed);
+  const std::vector<Eigen::Vector2d> targets_in_enu = make_targets(settings.run);
   const std::vector<io::RecordedFrame> frames = generate_frames(flight, settings, targets_in_enu);
 
   io::RecordingWriter writer(folder);

@@ -37,6 +37,8 @@ VehicleTime at_seconds(double time_s) {
 std::vector<std::string> RunSettings::problems() const {
   Problems found;
   found.require(scenario >= 1 && scenario <= kScenarioCount, "scenario must be 1, 2 or 3");
+  found.require(!pair_distance_m || (*pair_distance_m > 0.0 && *pair_distance_m <= 5.0),
+                "pair_distance must lie in (0, 5] m");
   found.require(frame_rate_hz > 0.0 && frame_rate_hz <= 1000.0, "frame_rate must lie in (0, 1000] Hz");
   found.require(std::abs(errors.latency_s) <= 10.0, "latency must lie in [-10, 10] s");
   found.require(errors.latency_jitter_s >= 0.0 && errors.latency_jitter_s <= 10.0,
@@ -53,6 +55,11 @@ std::vector<std::string> RunSettings::problems() const {
   }
   found.add(camera.problems());
   return found.take();
+}
+
+std::vector<Eigen::Vector2d> make_targets(const RunSettings& settings) {
+  return settings.pair_distance_m ? make_pairs(*settings.pair_distance_m, settings.seed)
+                                  : make_scenario(settings.scenario, settings.seed);
 }
 
 std::uint64_t run_seed(const RunSettings& settings, const Flight& flight) {

@@ -27,10 +27,11 @@ struct CameraErrors {
 
 /// What a recording and a live run have in common.
 struct RunSettings {
-  int scenario = 1;             ///< 1 spread, 2 tight clusters, 3 grid
-  std::uint64_t seed = 1;       ///< other seeds give other targets and other errors
-  double frame_rate_hz = 10.0;  ///< [Hz]
-  CameraConfig camera;          ///< as it is meant to be; its distortion is the true lens
+  int scenario = 1;                       ///< 1 spread, 2 tight clusters, 3 grid
+  std::optional<double> pair_distance_m;  ///< in place of the scenario: targets in pairs so far apart
+  std::uint64_t seed = 1;                 ///< other seeds give other targets and other errors
+  double frame_rate_hz = 10.0;            ///< [Hz]
+  CameraConfig camera;                    ///< as it is meant to be; its distortion is the true lens
   CameraErrors errors;
   std::optional<double> start_s;  ///< [s] on the vehicle's clock; unset: when the survey height is reached
   std::optional<double> end_s;    ///< [s] on the vehicle's clock; unset: when the survey height is left
@@ -56,6 +57,9 @@ CameraConfig nominal_camera(const RunSettings& settings);
 
 /// The part of the flight that the run shows. Throws std::invalid_argument where it holds no truth.
 TimeSpan run_span(const RunSettings& settings, const Trajectory& truth);
+
+/// Where the run's targets stand, east and north of home [m].
+std::vector<Eigen::Vector2d> make_targets(const RunSettings& settings);
 
 /// The targets as they stand in truth files: ids from 0, class 0.
 std::vector<io::TrueTarget> true_targets(const std::vector<Eigen::Vector2d>& positions_in_enu,
