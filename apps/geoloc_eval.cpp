@@ -39,7 +39,7 @@ void add_options(CLI::App& program, Options& options) {
       ->check(CLI::IsMember({"stock", "gnss", "all", "none"}))
       ->capture_default_str();
   program.add_option("--method", options.method, "Which estimator")
-      ->check(CLI::IsMember({"paper", "full", "both"}))
+      ->check(CLI::IsMember({"paper", "joint", "both"}))
       ->capture_default_str();
   program.add_option("--scenarios", options.scenarios, "Targets: 1 spread, 2 tight clusters, 3 grid")
       ->delimiter(',')
@@ -50,7 +50,7 @@ void add_options(CLI::App& program, Options& options) {
       ->capture_default_str();
   program
       .add_option("--known-points", options.known_points,
-                  "Also run the full method with so many targets of each run told to it, 5 cm off; the "
+                  "Also run the joint method with so many targets of each run told to it, 5 cm off; the "
                   "others are scored")
       ->check(CLI::Range(0, 30))
       ->capture_default_str();
@@ -84,8 +84,8 @@ Experiment make_experiment(const Options& options) {
   experiment.flights_folder =
       sim::find_flights(options.data_folder, std::filesystem::read_symlink("/proc/self/exe"));
   if (options.method == "paper") experiment.contenders = {{Method::kPaper, 0}};
-  if (options.method == "full") experiment.contenders = {{Method::kFull, 0}};
-  if (options.known_points > 0) experiment.contenders.push_back({Method::kFull, options.known_points});
+  if (options.method == "joint") experiment.contenders = {{Method::kJoint, 0}};
+  if (options.known_points > 0) experiment.contenders.push_back({Method::kJoint, options.known_points});
   experiment.scenarios = options.scenarios;
   experiment.seeds = options.seeds;
   if (!options.config_file.empty()) {

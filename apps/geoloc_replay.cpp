@@ -44,13 +44,24 @@ void apply(const nlohmann::json& document, const std::string& name, EstimationCo
   refuse_problems(name, problems);
 }
 
+/// A recording's own settings. Recordings of before December 2026 call the joint method `full`.
+nlohmann::json recorded_settings(const std::string& text) {
+  nlohmann::json settings = nlohmann::json::parse(text, nullptr, false);
+  if (!settings.is_object()) return settings;
+  if (settings.value("method", nlohmann::json()) == "full") settings["method"] = "joint";
+  if (settings.contains("full") && !settings.contains("joint")) {
+    settings["joint"] = std::move(settings["full"]);
+    settings.erase("full");
+  }
+  return settings;
+}
+
 /// The recording's own configuration, under the file given, under the options given. The camera is always the
 /// recording's, unless a file names another.
 EstimationConfig choose_config(const Options& options, const io::Recording* recording) {
   EstimationConfig config;
   if (recording != nullptr && recording->config_json) {
-    apply(nlohmann::json::parse(*recording->config_json, nullptr, false), options.recording + "/config.json",
-          config);
+    apply(recorded_settings(*recording->config_json), options.recording + "/config.json", config);
   }
   if (recording != nullptr) config.geolocator.camera = recording->camera;
   if (!options.config_file.empty())
@@ -62,7 +73,7 @@ EstimationConfig choose_config(const Options& options, const io::Recording* reco
 
 void add_options(CLI::App& program, Options& options) {
   program.add_option("recording", options.recording, "Folder of a recording")->type_name("RECORDING");
-  program.add_option("--method", options.method, "full, or paper")->type_name("NAME");
+  program.add_option("--method", options.method, "joint, or paper")->type_name("NAME");
   program.add_option("--config", options.config_file, "Settings, JSON (see --print-config)")
       ->type_name("FILE");
   program.add_option("--truth", options.truth_file, "True targets, GeoJSON; default: the recording's own")

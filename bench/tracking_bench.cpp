@@ -61,7 +61,7 @@ void process_frame(benchmark::State& state, Method method) {
     hover(geolocator, frame.captured_at);
     benchmark::DoNotOptimize(geolocator.process(frame));
   };
-  constexpr int kFramesToSettle = 200;  // the full method solves after each frame at first
+  constexpr int kFramesToSettle = 200;  // the joint method solves after each frame at first
   for (int i = 0; i < kFramesToSettle; ++i) process_next();
   if (geolocator.tracks().size() != static_cast<std::size_t>(tracks))
     state.SkipWithError("not as many tracks");
@@ -76,8 +76,8 @@ BENCHMARK_CAPTURE(process_frame, paper, Method::kPaper)
     ->Args({1, 1000})
     ->Args({100, 1000})
     ->ArgNames({"detections", "tracks"});
-// Without those whose tracks are not detected: the full method would remove these.
-BENCHMARK_CAPTURE(process_frame, full, Method::kFull)
+// Without those whose tracks are not detected: the joint method would remove these.
+BENCHMARK_CAPTURE(process_frame, joint, Method::kJoint)
     ->Args({30, 30})
     ->Args({100, 100})
     ->ArgNames({"detections", "tracks"});

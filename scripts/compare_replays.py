@@ -7,7 +7,6 @@ both builds' geoloc_replay, and compares --out, --csv and --raw. Names of settin
 taken from each build's --print-config. Some 60 recordings, 85 replays; half a minute on two cores.
 """
 import concurrent.futures
-import filecmp
 import itertools
 import json
 import os
@@ -92,6 +91,11 @@ class Build:
         return scratch
 
 
+def content(file):
+    """The joint method was once called full."""
+    return file.read_bytes().replace(b'"method": "full"', b'"method": "joint"')
+
+
 def main(before, after, folder):
     folder.mkdir(parents=True, exist_ok=True)
     builds = [Build("before", before), Build("after", after)]
@@ -112,7 +116,7 @@ def main(before, after, folder):
     def differing(case):
         first, second = (build.results(*case, folder / "results") for build in builds)
         return [f"{first / name} {second / name}" for name in OUTPUTS.values()
-                if not filecmp.cmp(first / name, second / name, shallow=False)]
+                if content(first / name) != content(second / name)]
 
     differences, done = [], 0
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

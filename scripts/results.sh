@@ -20,7 +20,7 @@ say "Evaluating"
 rm -rf build/results
 build/release/bin/geoloc_eval --known-points 2 --sweep all --report build/results >/dev/null
 for flight in stock_path1 stock_path2 stock_path3; do
-  build/release/bin/geoloc_eval --flights none --seeds 0 --method full --rendered --rendered-flight "$flight" \
+  build/release/bin/geoloc_eval --flights none --seeds 0 --method joint --rendered --rendered-flight "$flight" \
     --report "build/results/$flight" >/dev/null
 done
 

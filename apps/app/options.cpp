@@ -31,7 +31,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add("--rtsp", options.rtsp_url, "Camera stream, H.264", "URL");
   add("--video", options.video_file, "A video file in place of a stream, played in real time", "FILE");
   add("--config", options.config_file, "Settings, JSON (see --print-config)", "FILE");
-  add("--method", options.method, "full, or paper", "NAME");
+  add("--method", options.method, "joint, or paper", "NAME");
   add_detector_options(program, options.detector);
   add("--record", options.record_folder, "Record telemetry and detections, for geoloc_replay", "DIR");
   add("--truth", options.truth_file, "True targets, GeoJSON: the run is scored at its end", "FILE");

@@ -46,14 +46,14 @@ void add_prior_options(CLI::App& program, PriorFiles& files) {
 
 void apply_priors(const PriorFiles& files, GeolocatorConfig& config) {
   if (!files.references.empty()) {
-    if (config.method != Method::kFull)
+    if (config.method != Method::kJoint)
       throw std::runtime_error(
           "--reference: the paper's method has no use for known points; leave out one of the two");
     config.known_points = io::read_known_points(files.references);
   }
   if (!files.calibration.empty())
-    config.full.prior =
-        io::read_calibration(files.calibration, config.full.prior, config.full.drift.sigma_yaw_deg);
+    config.joint.prior =
+        io::read_calibration(files.calibration, config.joint.prior, config.joint.drift.sigma_yaw_deg);
 }
 
 std::optional<int> parse(CLI::App& program, int argc, char** argv) {

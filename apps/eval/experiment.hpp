@@ -30,7 +30,7 @@ struct Experiment {
   std::vector<std::string> flights;
   std::vector<int> scenarios{1, 2, 3};
   std::vector<std::uint64_t> seeds{0, 1, 2};
-  std::vector<Contender> contenders{{Method::kPaper, 0}, {Method::kFull, 0}};
+  std::vector<Contender> contenders{{Method::kPaper, 0}, {Method::kJoint, 0}};
   sim::RecordingSettings recording;  ///< flight, scenario and seed are set for each run
   EstimationConfig estimation;       ///< camera and method are set for each run
 };

@@ -75,7 +75,7 @@ std::string tiles(const std::vector<Summary>& summaries) {
       tile("", fmt::format("{:.3f} m", kPublishedRmse_m), "published: RMSE, 529 / 540 found, other flights");
   for (const Summary& s : summaries) {
     html += tile(
-        s.contender.method == Method::kFull ? "ours" : "", fmt::format("{:.3f} m", s.mean_rmse_m),
+        s.contender.method == Method::kJoint ? "ours" : "", fmt::format("{:.3f} m", s.mean_rmse_m),
         fmt::format("{}, {} flights: RMSE, {} / {} found", name_of(s.contender), s.set, s.found, s.targets));
   }
   return html + "</div>\n";
@@ -88,7 +88,7 @@ std::string summary_table(const std::vector<Summary>& summaries) {
       "extra", "merged pairs", "NEES, right: 2", "worst latency error s", "worst boresight error °"};
   table.rows.push_back({"published", "18", "0.603", "", "529/540", "", "", "", "", ""});
   for (const Summary& s : summaries) {
-    const bool calibrates = s.contender.method == Method::kFull;
+    const bool calibrates = s.contender.method == Method::kJoint;
     table.rows.push_back({fmt::format("{}, {}", s.set, name_of(s.contender)), std::to_string(s.runs),
                           fmt::format("{:.3f}", s.mean_rmse_m), fmt::format("{:.3f}", s.mean_relative_rmse_m),
                           fmt::format("{}/{}", s.found, s.targets), std::to_string(s.extra),
@@ -127,15 +127,17 @@ std::string worst_run(const std::vector<RunResult>& runs) {
   });
   const auto is_worse = [](const RunPair& pair) { return pair.rmse_difference_m() > 0.0; };
   const auto finds_fewer = [](const RunPair& pair) {
-    return pair.full->score.found < pair.paper->score.found;
+    return pair.joint->score.found < pair.paper->score.found;
   };
-  return paragraph(fmt::format(
-      "Full is worse than paper in {} of {} runs, and finds fewer targets in {}. Its worst run against paper "
-      "is {}, "
-      "scenario {}, seed {}: {:.3f} m against {:.3f} m ({:+.3f} m).",
-      std::count_if(pairs.begin(), pairs.end(), is_worse), pairs.size(),
-      std::count_if(pairs.begin(), pairs.end(), finds_fewer), worst->full->flight, worst->full->scenario,
-      worst->full->seed, worst->full->score.rmse_m, worst->paper->score.rmse_m, worst->rmse_difference_m()));
+  return paragraph(
+      fmt::format("Joint is worse than paper in {} of {} runs, and finds fewer targets in {}. Its worst run "
+                  "against paper "
+                  "is {}, "
+                  "scenario {}, seed {}: {:.3f} m against {:.3f} m ({:+.3f} m).",
+                  std::count_if(pairs.begin(), pairs.end(), is_worse), pairs.size(),
+                  std::count_if(pairs.begin(), pairs.end(), finds_fewer), worst->joint->flight,
+                  worst->joint->scenario, worst->joint->seed, worst->joint->score.rmse_m,
+                  worst->paper->score.rmse_m, worst->rmse_difference_m()));
 }
 
 std::string table_section(const std::vector<RunResult>& runs) {
@@ -155,7 +157,7 @@ std::string table_section(const std::vector<RunResult>& runs) {
       "RMSE in metres / targets found of 30, means over the seeds. The published figures are of other "
       "flights over other targets, in Gazebo.");
   for (int scenario = 1; scenario <= 3; ++scenario) html += scenario_table(runs, summaries, scenario);
-  html += heading("Full against paper, run by run");
+  html += heading("Joint against paper, run by run");
   html += worst_run(runs);
   return html;
 }
@@ -166,7 +168,7 @@ std::string run_section(const EvalResults& results) {
   if (charts.empty()) return "";
   return figures(charts) +
          paragraph(
-             "Below the dotted line of the first picture full is better. Of mounting error and latency the "
+             "Below the dotted line of the first picture joint is better. Of mounting error and latency the "
              "estimator is told nothing; bars are the sigma it states, the dotted line is the truth. A NEES "
              "of 2 "
              "is right; above it the method is too sure of itself.");
@@ -218,7 +220,7 @@ std::string to_html(const EvalResults& results) {
           "</style></head>\n<body><main>\n<h1>How well geoloc locates</h1>\n";
   html +=
       "<p class=\"lead\">Recorded ArduPilot flights, simulated camera. <b>paper</b> is the published method, "
-      "<b>full</b> "
+      "<b>joint</b> "
       "the self-calibrating one. Frames are late and the camera is mounted askew; neither method is "
       "told.</p>\n";
   if (!results.runs.empty()) html += table_section(results.runs);

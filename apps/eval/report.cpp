@@ -59,7 +59,8 @@ std::string set_of(const std::string& flight) {
 
 std::string name_of(const Contender& contender) {
   if (contender.method == Method::kPaper) return "paper";
-  return contender.known_points == 0 ? "full" : fmt::format("full, {} known points", contender.known_points);
+  return contender.known_points == 0 ? "joint"
+                                     : fmt::format("joint, {} known points", contender.known_points);
 }
 
 std::string table_cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,

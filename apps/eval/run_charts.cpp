@@ -35,23 +35,23 @@ std::vector<RunPair> pairs_of(const std::vector<RunResult>& runs) {
   std::vector<RunPair> pairs;
   for (const RunResult& paper : runs) {
     if (paper.contender.method != Method::kPaper) continue;
-    const auto full = std::find_if(runs.begin(), runs.end(), [&](const RunResult& run) {
-      return run.contender == Contender{Method::kFull, 0} && is_same_run(run, paper);
+    const auto joint = std::find_if(runs.begin(), runs.end(), [&](const RunResult& run) {
+      return run.contender == Contender{Method::kJoint, 0} && is_same_run(run, paper);
     });
-    if (full != runs.end()) pairs.push_back({&paper, &*full});
+    if (joint != runs.end()) pairs.push_back({&paper, &*joint});
   }
   return pairs;
 }
 
 Chart methods_chart(const std::vector<RunResult>& runs) {
   Chart chart;
-  chart.title = "Every run: full against paper";
+  chart.title = "Every run: joint against paper";
   chart.x = {"RMSE of paper, m", true, {}};
-  chart.y = {"RMSE of full, m", true, {}};
+  chart.y = {"RMSE of joint, m", true, {}};
   chart.has_diagonal = true;
   for (const RunPair& pair : pairs_of(runs)) {
-    series_of_set(chart, set_of(pair.full->flight))
-        .points.push_back({pair.paper->score.rmse_m, pair.full->score.rmse_m, 0.0});
+    series_of_set(chart, set_of(pair.joint->flight))
+        .points.push_back({pair.paper->score.rmse_m, pair.joint->score.rmse_m, 0.0});
   }
   return chart;
 }
@@ -97,12 +97,12 @@ Chart consistency_chart(const std::vector<RunResult>& runs) {
   constexpr double kExpected = 2.0;  // the mean of chi-squared with two degrees of freedom
   constexpr double kAside = 0.12;    // the sets stand beside each other
   Chart chart;
-  chart.title = "Is the stated covariance right? NEES of full";
+  chart.title = "Is the stated covariance right? NEES of joint";
   chart.x = {"path", false, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
   chart.y = {"NEES, a point a run", true, {}};
   chart.right_y = kExpected;
   for (const RunResult& run : runs) {
-    if (!(run.contender == Contender{Method::kFull, 0})) continue;
+    if (!(run.contender == Contender{Method::kJoint, 0})) continue;
     const std::string set = set_of(run.flight);
     series_of_set(chart, set)
         .points.push_back({path_number(run.flight) + (set == "stock" ? -kAside : kAside), run.nees, 0.0});

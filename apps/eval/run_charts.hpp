@@ -8,7 +8,7 @@
 
 namespace geoloc::apps {
 
-/// RMSE of the full method against that of the paper's on the same run, a point a run, a series a set.
+/// RMSE of the joint method against that of the paper's on the same run, a point a run, a series a set.
 Chart methods_chart(const std::vector<RunResult>& runs);
 
 /// Both tilts of the camera as estimated against as injected, with the stated sigma.
@@ -17,14 +17,14 @@ Chart boresight_chart(const std::vector<RunResult>& runs);
 /// The latency's error against the latency, with the stated sigma.
 Chart latency_chart(const std::vector<RunResult>& runs);
 
-/// NEES of the full method on each path.
+/// NEES of the joint method on each path.
 Chart consistency_chart(const std::vector<RunResult>& runs);
 
 /// A run by both methods.
 struct RunPair {
   const RunResult* paper = nullptr;
-  const RunResult* full = nullptr;
-  double rmse_difference_m() const { return full->score.rmse_m - paper->score.rmse_m; }
+  const RunResult* joint = nullptr;
+  double rmse_difference_m() const { return joint->score.rmse_m - paper->score.rmse_m; }
 };
 
 /// All runs that both methods made.

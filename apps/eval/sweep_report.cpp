@@ -27,7 +27,7 @@ std::string percent(int part, int whole) {
   return fmt::format("{:.1f}", std::min(99.9, 100.0 * part / whole));
 }
 
-/// Paper and full always look the same.
+/// Paper and joint always look the same.
 int style_of(const Contender& contender) {
   return contender.method == Method::kPaper ? 0 : 1;
 }

@@ -90,7 +90,7 @@ def record_and_replay(experiment: Experiment) -> tuple[Run, list[Replayed]]:
         run_program(
             *(BIN / "geoloc_sim", "--record", recording, "--flight", flight, "--scenario", scenario, "--seed", seed)
         )
-        replayed = [replay(recording, "paper", "--raw", raw), replay(recording, "full")]
+        replayed = [replay(recording, "paper", "--raw", raw), replay(recording, "joint")]
         return read_run(recording, raw, ROOT / "data" / "flights"), replayed
 
 

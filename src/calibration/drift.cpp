@@ -11,13 +11,14 @@ namespace geoloc {
 std::vector<std::string> DriftConfig::problems() const {
   Problems found;
   found.require(node_spacing_s >= 0.5 && node_spacing_s <= 600.0,
-                "full.drift.node_spacing_s must lie in [0.5, 600]");
+                "joint.drift.node_spacing_s must lie in [0.5, 600]");
   found.require(position_time_constant_s > 0.0 && std::isfinite(position_time_constant_s),
-                "full.drift.position_time_constant_s must be > 0");
+                "joint.drift.position_time_constant_s must be > 0");
   found.require(yaw_time_constant_s > 0.0 && std::isfinite(yaw_time_constant_s),
-                "full.drift.yaw_time_constant_s must be > 0");
-  found.require(sigma_yaw_deg > 0.0 && sigma_yaw_deg <= 30.0, "full.drift.sigma_yaw_deg must lie in (0, 30]");
-  found.require(max_nodes >= 4 && max_nodes <= 500, "full.drift.max_nodes must lie in [4, 500]");
+                "joint.drift.yaw_time_constant_s must be > 0");
+  found.require(sigma_yaw_deg > 0.0 && sigma_yaw_deg <= 30.0,
+                "joint.drift.sigma_yaw_deg must lie in (0, 30]");
+  found.require(max_nodes >= 4 && max_nodes <= 500, "joint.drift.max_nodes must lie in [4, 500]");
   return found.take();
 }
 

@@ -30,7 +30,7 @@ SharedError::Row lasting(SharedError::Row jacobian) {
 
 }  // namespace
 
-MovingTracker::MovingTracker(const FullTrackerConfig& config, int max_detections) : config_(config) {
+MovingTracker::MovingTracker(const JointTrackerConfig& config, int max_detections) : config_(config) {
   if (config.moving.classes.empty()) return;
   const auto tracks = static_cast<std::size_t>(config.max_tracks);
   tracks_.reserve(tracks);

@@ -22,9 +22,9 @@ bool is_usable(const Detection& detection) {
          (detection.sigma_px == 0.0 || is_sigma_px(detection.sigma_px));
 }
 
-std::variant<PaperTracker, FullTracker> make_tracker(const GeolocatorConfig& config) {
+std::variant<PaperTracker, JointTracker> make_tracker(const GeolocatorConfig& config) {
   if (config.method == Method::kPaper) return PaperTracker(config.paper, config.max_detections);
-  return FullTracker(config.full, config.known_points, config.max_detections);
+  return JointTracker(config.joint, config.known_points, config.max_detections);
 }
 
 bool may_be_cut(const Box& box, const CameraIntrinsics& image, double margin_px) {
@@ -51,7 +51,7 @@ std::vector<std::string> GeolocatorConfig::problems() const {
   found.add(state.problems());
   found.add(projector.problems());
   found.add(paper.problems());
-  found.add(full.problems());
+  found.add(joint.problems());
   for (const KnownPoint& point : known_points) found.add(point.problems());
   return found.take();
 }
@@ -75,25 +75,25 @@ const TrackCounters& Geolocator::track_counters() const {
 }
 
 std::optional<Calibration> Geolocator::calibration() const {
-  const auto* full = std::get_if<FullTracker>(&tracker_);
-  if (full == nullptr) return std::nullopt;
-  return full->calibration_of_camera();
+  const auto* joint = std::get_if<JointTracker>(&tracker_);
+  if (joint == nullptr) return std::nullopt;
+  return joint->calibration_of_camera();
 }
 
 const std::vector<KnownPoints::Entry>& Geolocator::known_points() const {
   static const std::vector<KnownPoints::Entry> none;
-  const auto* full = std::get_if<FullTracker>(&tracker_);
-  return full == nullptr ? none : full->known_points().entries();
+  const auto* joint = std::get_if<JointTracker>(&tracker_);
+  return joint == nullptr ? none : joint->known_points().entries();
 }
 
 Duration Geolocator::latency() const {
-  const auto* full = std::get_if<FullTracker>(&tracker_);
-  return full == nullptr ? Duration::zero() : from_seconds(full->calibration().latency_s());
+  const auto* joint = std::get_if<JointTracker>(&tracker_);
+  return joint == nullptr ? Duration::zero() : from_seconds(joint->calibration().latency_s());
 }
 
 Rigid3d Geolocator::calibrated_camera_pose(const VehicleState& vehicle) const {
   Rigid3d pose = enu_from_camera(vehicle, config_.camera.mount, config_.camera_orientation);
-  if (const auto* full = std::get_if<FullTracker>(&tracker_)) full->calibration().apply_to(pose);
+  if (const auto* joint = std::get_if<JointTracker>(&tracker_)) joint->calibration().apply_to(pose);
   return pose;
 }
 
@@ -120,8 +120,8 @@ bool Geolocator::process(const FrameDetections& frame) {
 }
 
 void Geolocator::place_known_points() {
-  auto* full = std::get_if<FullTracker>(&tracker_);
-  if (full != nullptr && !full->known_points().is_placed()) full->set_local_frame(*state_.local_frame());
+  auto* joint = std::get_if<JointTracker>(&tracker_);
+  if (joint != nullptr && !joint->known_points().is_placed()) joint->set_local_frame(*state_.local_frame());
 }
 
 void Geolocator::select(const std::vector<Detection>& detections) {

@@ -17,7 +17,7 @@ Chart small_chart() {
   chart.title = "Errors";
   chart.x = {"height, m", true, {10.0, 20.0}};
   chart.y = {"RMSE, m", true, {}};
-  chart.series.push_back({"full", 1, true, {{10.0, 0.1, 0.0}, {20.0, 0.2, 0.05}}});
+  chart.series.push_back({"joint", 1, true, {{10.0, 0.1, 0.0}, {20.0, 0.2, 0.05}}});
   return chart;
 }
 

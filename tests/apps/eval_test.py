@@ -30,8 +30,8 @@ class Baseline(AppTest):
         self.assertEqual((one / "report.json").read_bytes(), (three / "report.json").read_bytes())
 
 
-class FullMethod(AppTest):
-    """What docs/results.md promises of the full method, over every run of the seeds 0, 1 and 2."""
+class JointMethod(AppTest):
+    """What docs/results.md promises of the joint method, over every run of the seeds 0, 1 and 2."""
 
     @classmethod
     def setUpClass(cls):
@@ -48,8 +48,8 @@ class FullMethod(AppTest):
         self.assertEqual((summary["found"], summary["extra"], summary["merged_pairs"]), (summary["targets"], 0, 0))
 
     def test_accuracy_and_completeness(self):
-        for flights, method, rmse_m, relative_rmse_m in (("stock", "full", 0.072, 0.069), ("gnss", "full", 0.60, 0.25),
-                                                         ("gnss", "full, 2 known points", 0.28, 0.25)):
+        for flights, method, rmse_m, relative_rmse_m in (("stock", "joint", 0.072, 0.069), ("gnss", "joint", 0.60, 0.25),
+                                                         ("gnss", "joint, 2 known points", 0.28, 0.25)):
             with self.subTest(flights=flights, method=method):
                 summary = self.summary(flights, method)
                 self.assertLessEqual(summary["mean_rmse_m"], rmse_m)
@@ -58,11 +58,11 @@ class FullMethod(AppTest):
 
     def test_stated_covariances_are_right_within_a_factor_of_two(self):
         for flights in "stock", "gnss":
-            self.assertGreaterEqual(self.summary(flights, "full")["mean_nees"], 0.5 * 2)
-            self.assertLessEqual(self.summary(flights, "full")["mean_nees"], 2 * 2)
+            self.assertGreaterEqual(self.summary(flights, "joint")["mean_nees"], 0.5 * 2)
+            self.assertLessEqual(self.summary(flights, "joint")["mean_nees"], 2 * 2)
 
     def test_latency_and_boresight_of_every_stock_run(self):
-        stock = self.summary("stock", "full")
+        stock = self.summary("stock", "joint")
         self.assertLessEqual(stock["worst_latency_error_s"], 0.020)
         self.assertLessEqual(stock["worst_boresight_error_deg"], 0.25)
         self.assertLessEqual(stock["worst_error_in_sigmas"], 3)
@@ -70,7 +70,7 @@ class FullMethod(AppTest):
     def test_no_run_is_much_worse_than_with_the_papers_method(self):
         rmse_m = {(r["flight"], r["scenario"], r["seed"], r["method"]): r["rmse_m"] for r in self.report["runs"]}
         for (*key, method), value in rmse_m.items():
-            if method == "full":
+            if method == "joint":
                 self.assertLessEqual(value, rmse_m[(*key, "paper")] + 0.05, key)
 
 
@@ -88,10 +88,10 @@ class Sweeps(AppTest):
         (sweep,) = report["sweeps"]
         rmse_m = {(point["method"], point["value"]): point["mean_rmse_m"] for point in sweep["points"]}
         self.assertGreater(rmse_m["paper", 0.3], 2 * rmse_m["paper", 0.0])
-        self.assertLess(rmse_m["full", 0.3], 1.3 * rmse_m["full", 0.0])
+        self.assertLess(rmse_m["joint", 0.3], 1.3 * rmse_m["joint", 0.0])
 
     def test_from_no_height_is_full_too_sure_of_itself(self):
-        report = self.evaluate(self.folder, "--flights", "none", "--sweep", "height", "--method", "full")
+        report = self.evaluate(self.folder, "--flights", "none", "--sweep", "height", "--method", "joint")
         (sweep,) = report["sweeps"]
         for point in sweep["points"]:
             self.assertLessEqual(point["mean_nees"], 2 * 2, point["value"])

@@ -19,7 +19,7 @@ class Determinism(AppTest):
 
     def test_a_recording_replayed_twice_gives_the_same_bytes(self):
         recording = self.make_recording()
-        for method in "paper", "full":
+        for method in "paper", "joint":
             with self.subTest(method):
                 first = self.outputs_of_replay(recording, method, "first")
                 self.assertEqual(first, self.outputs_of_replay(recording, method, "second"))
@@ -169,6 +169,12 @@ class Settings(AppTest):
         config = self.write("config.json", run("geoloc_app", "--print-config").out)
         result = run("geoloc_replay", self.make_recording(), "--config", config, "--out", self.folder / "objects.geojson")
         self.assertEqual(result.status, 0, result.err)
+
+    def test_a_recording_of_the_time_when_the_joint_method_was_called_full_is_replayed_with_its_settings(self):
+        recording = self.make_recording()
+        for name in "full", "joint":
+            (recording / "config.json").write_text(json.dumps({"method": name, name: {"max_tracks": 0}}))
+            self.assertIn("joint.max_tracks must lie in", run("geoloc_replay", recording).err)
 
     def test_a_setting_changes_the_run(self):
         config = self.write("config.json", {"method": "paper", "paper": {"confirm_hits": 100000}})

@@ -46,8 +46,8 @@ TEST(Sweep, UnknownNameIsRefusedWithThoseThereAre) {
 
 TEST(SweepReport, RunsThatFoundNothingHaveNoRmse) {
   const SweepPoint point{1.0,
-                         {run_of(Method::kPaper, 0, 0.0, 2), run_of(Method::kFull, 30, 0.2, 0),
-                          run_of(Method::kPaper, 20, 0.6, 1), run_of(Method::kFull, 30, 0.4, 0)},
+                         {run_of(Method::kPaper, 0, 0.0, 2), run_of(Method::kJoint, 30, 0.2, 0),
+                          run_of(Method::kPaper, 20, 0.6, 1), run_of(Method::kJoint, 30, 0.4, 0)},
                          0};
   const auto cells = cells_of(point);
   ASSERT_EQ(cells.size(), 2U);
@@ -60,9 +60,9 @@ TEST(SweepReport, RunsThatFoundNothingHaveNoRmse) {
 }
 
 TEST(SweepReport, ChartNamesSharesNeverRoundedUpToAll) {
-  SweepResult result{find_sweeps("latency").front(), {{0.0, {run_of(Method::kFull, 30, 0.2, 4)}, 0}}};
+  SweepResult result{find_sweeps("latency").front(), {{0.0, {run_of(Method::kJoint, 30, 0.2, 4)}, 0}}};
   for (int i = 0; i < 99; ++i)
-    result.points[0].runs.push_back(run_of(Method::kFull, i == 0 ? 29 : 30, 0.2, 0));
+    result.points[0].runs.push_back(run_of(Method::kJoint, i == 0 ? 29 : 30, 0.2, 0));
   const Chart chart = chart_of(result);
   ASSERT_EQ(chart.rows.size(), 2U);
   EXPECT_EQ(chart.rows[0].cells[0].text, "99.9");

@@ -257,7 +257,7 @@ std::vector<Eigen::Vector2d> cars_at(double time_s) {
 
 GeolocatorConfig with_moving_cars() {
   GeolocatorConfig config;
-  config.full.moving.classes = {kCar};
+  config.joint.moving.classes = {kCar};
   return config;
 }
 
@@ -409,12 +409,12 @@ TEST(Geolocator, TrustsADetectionAsFarAsItTrustsItself) {
       sum_m += std::sqrt(track.position_in_enu.covariance.trace());
     return sum_m / static_cast<double>(flight.geolocator().tracks().size());
   };
-  for (const Method method : {Method::kPaper, Method::kFull}) {
+  for (const Method method : {Method::kPaper, Method::kJoint}) {
     EXPECT_GT(final_sigma_m(method, 40.0), 1.1 * final_sigma_m(method, 1.0));
     EXPECT_GT(final_sigma_m(method, 200.0), 1.1 * final_sigma_m(method, 40.0));
   }
-  const double configured_px = FullTrackerConfig{}.sigma_px;
-  EXPECT_EQ(final_sigma_m(Method::kFull, 0.0), final_sigma_m(Method::kFull, configured_px)) << "not stated";
+  const double configured_px = JointTrackerConfig{}.sigma_px;
+  EXPECT_EQ(final_sigma_m(Method::kJoint, 0.0), final_sigma_m(Method::kJoint, configured_px)) << "not stated";
 }
 
 TEST(Geolocator, DoesNotAllocateInTheSteadyState) {

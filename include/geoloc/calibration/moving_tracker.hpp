@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geoloc/calibration/existence.hpp"
-#include "geoloc/calibration/full_tracker_config.hpp"
+#include "geoloc/calibration/joint_tracker_config.hpp"
 #include "geoloc/calibration/look.hpp"
 #include "geoloc/calibration/neighbours.hpp"
 #include "geoloc/projection/projector.hpp"
@@ -39,7 +39,7 @@ class MovingTracker {
   };
 
   /// Throws nothing; the configuration is checked. max_detections: the most that update() will be given.
-  MovingTracker(const FullTrackerConfig& config, int max_detections);
+  MovingTracker(const JointTrackerConfig& config, int max_detections);
 
   bool is_of_moving_class(const Detection& detection) const;
 
@@ -72,7 +72,7 @@ class MovingTracker {
   bool are_one(std::size_t a, std::size_t b) const;
   void remove(std::size_t track);
 
-  FullTrackerConfig config_;
+  JointTrackerConfig config_;
   std::vector<Track> tracks_;
   std::vector<Estimate> estimates_;
   VehicleTime predicted_to_{};

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "geoloc/calibration/full_tracker.hpp"
+#include "geoloc/calibration/joint_tracker.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 #include "geoloc/state/state_provider.hpp"
@@ -84,7 +84,7 @@ class Geolocator {
   GeolocatorConfig config_;
   StateProvider state_;
   Projector projector_;
-  std::variant<PaperTracker, FullTracker> tracker_;
+  std::variant<PaperTracker, JointTracker> tracker_;
   FrameView view_;
   std::vector<Detection> selected_;
   std::vector<LocatedDetection> located_;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "geoloc/calibration/full_tracker_config.hpp"
+#include "geoloc/calibration/joint_tracker_config.hpp"
 #include "geoloc/calibration/known_points.hpp"
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/projection/camera_pose.hpp"
@@ -17,12 +17,12 @@ namespace geoloc {
 /// How objects are estimated from the fixes.
 enum class Method {
   kPaper,  ///< one Kalman filter an object, every error taken as noise (PaperTracker)
-  kFull    ///< objects, the camera's calibration and the vehicle's drift together (FullTracker)
+  kJoint   ///< objects, the camera's calibration and the vehicle's drift together (JointTracker)
 };
 
 /// Everything a Geolocator can be told: the settings of each of its stages.
 struct GeolocatorConfig {
-  Method method = Method::kFull;
+  Method method = Method::kJoint;
   CameraOrientation camera_orientation = CameraOrientation::kComposed;
   int max_detections = 256;  ///< a frame; of more, the most confident are used
   /// A box that comes nearer to the image's edge may be cut by it, so that its centre is not the object's;
@@ -32,8 +32,8 @@ struct GeolocatorConfig {
   StateConfig state;
   ProjectorConfig projector;
   PaperTrackerConfig paper;
-  FullTrackerConfig full;
-  std::vector<KnownPoint> known_points;  ///< of Method::kFull
+  JointTrackerConfig joint;
+  std::vector<KnownPoint> known_points;  ///< of Method::kJoint
 
   /// Every fault at once, named by its JSON path; empty where a Geolocator can be built.
   std::vector<std::string> problems() const;

@@ -33,7 +33,7 @@ CalibrationPrior parse_calibration(const std::string& text, const std::string& n
   if (document.is_object() && document.contains("calibration")) document = json(document["calibration"]);
   if (!document.is_object()) {
     throw std::runtime_error(
-        name + ": holds no calibration; give a file that --out of a run with --method full wrote");
+        name + ": holds no calibration; give a file that --out of a run with --method joint wrote");
   }
   CalibrationPrior learnt = prior;
   try {

@@ -73,46 +73,47 @@ void visit_fields(Visitor& v, MovingConfig& moving) {
 }
 
 template <class Visitor>
-void visit_fields(Visitor& v, FullTrackerConfig& full) {
-  v.section("prior", full.prior);
-  v.section("drift", full.drift);
-  v.section("moving", full.moving);
-  v.field("sigma_px", full.sigma_px, "px, 1-sigma of a box's centre, an axis");
-  v.field("sigma_time_s", full.sigma_time_s, "s, of a frame's stamp, from frame to frame");
-  v.field("sigma_attitude_deg", full.sigma_attitude_deg, "deg, 1-sigma from frame to frame");
-  v.field("attitude_time_constant_s", full.attitude_time_constant_s,
+void visit_fields(Visitor& v, JointTrackerConfig& joint) {
+  v.section("prior", joint.prior);
+  v.section("drift", joint.drift);
+  v.section("moving", joint.moving);
+  v.field("sigma_px", joint.sigma_px, "px, 1-sigma of a box's centre, an axis");
+  v.field("sigma_time_s", joint.sigma_time_s, "s, of a frame's stamp, from frame to frame");
+  v.field("sigma_attitude_deg", joint.sigma_attitude_deg, "deg, 1-sigma from frame to frame");
+  v.field("attitude_time_constant_s", joint.attitude_time_constant_s,
           "s, frames within it share that, as far as drift does not follow it");
-  v.field("horizontal_accuracy_m", full.horizontal_accuracy_m, "m, radial, where the autopilot reports none");
-  v.field("constant_share", full.constant_share, "of its variance, what stays constant over a flight");
-  v.field("least_offset_sigma_m", full.least_offset_sigma_m,
+  v.field("horizontal_accuracy_m", joint.horizontal_accuracy_m,
+          "m, radial, where the autopilot reports none");
+  v.field("constant_share", joint.constant_share, "of its variance, what stays constant over a flight");
+  v.field("least_offset_sigma_m", joint.least_offset_sigma_m,
           "m, 1-sigma an axis of the constant position error at least");
-  v.field("fast_share", full.fast_share, "of the accuracy, what changes from second to second");
-  v.field("fast_time_constant_s", full.fast_time_constant_s, "s, frames within it share their noise");
-  v.field("sigma_attitude_bias_deg", full.sigma_attitude_bias_deg, "deg, the autopilot's own, 1-sigma");
-  v.field("sigma_state_lag_s", full.sigma_state_lag_s, "s, the autopilot's own, 1-sigma");
-  v.field("gate", full.gate, "squared Mahalanobis distance up to which a pair is accepted");
+  v.field("fast_share", joint.fast_share, "of the accuracy, what changes from second to second");
+  v.field("fast_time_constant_s", joint.fast_time_constant_s, "s, frames within it share their noise");
+  v.field("sigma_attitude_bias_deg", joint.sigma_attitude_bias_deg, "deg, the autopilot's own, 1-sigma");
+  v.field("sigma_state_lag_s", joint.sigma_state_lag_s, "s, the autopilot's own, 1-sigma");
+  v.field("gate", joint.gate, "squared Mahalanobis distance up to which a pair is accepted");
   v.field(
-      "ambiguity", full.ambiguity,
+      "ambiguity", joint.ambiguity,
       "in the same units, how much worse another explanation of a frame may be and still be held possible");
-  v.field("class_mismatch_cost", full.class_mismatch_cost, "added to it where the classes differ");
-  v.field("duplicate_share", full.duplicate_share, "of their size: detections nearer than this are one");
-  v.field("detection_probability", full.detection_probability, "before any was counted");
-  v.field("clutter_per_frame", full.clutter_per_frame, "false boxes");
-  v.field("birth_probability", full.birth_probability, "that a new detection is an object");
-  v.field("confirm_probability", full.confirm_probability, "existence that confirms an object");
-  v.field("delete_probability", full.delete_probability, "existence that removes it");
-  v.field("smallest_object_px", full.smallest_object_px, "px, smaller ones are not expected to be found");
-  v.field("merge_radius_m", full.merge_radius_m, "m, tracks that are nearer may be one object");
-  v.field("merge_gate", full.merge_gate, "squared Mahalanobis distance up to which they are");
-  v.field("max_tracks", full.max_tracks, "objects at most");
-  v.field("solve_period_s", full.solve_period_s, "s between solutions for calibration and drift");
+  v.field("class_mismatch_cost", joint.class_mismatch_cost, "added to it where the classes differ");
+  v.field("duplicate_share", joint.duplicate_share, "of their size: detections nearer than this are one");
+  v.field("detection_probability", joint.detection_probability, "before any was counted");
+  v.field("clutter_per_frame", joint.clutter_per_frame, "false boxes");
+  v.field("birth_probability", joint.birth_probability, "that a new detection is an object");
+  v.field("confirm_probability", joint.confirm_probability, "existence that confirms an object");
+  v.field("delete_probability", joint.delete_probability, "existence that removes it");
+  v.field("smallest_object_px", joint.smallest_object_px, "px, smaller ones are not expected to be found");
+  v.field("merge_radius_m", joint.merge_radius_m, "m, tracks that are nearer may be one object");
+  v.field("merge_gate", joint.merge_gate, "squared Mahalanobis distance up to which they are");
+  v.field("max_tracks", joint.max_tracks, "objects at most");
+  v.field("solve_period_s", joint.solve_period_s, "s between solutions for calibration and drift");
 }
 
 /// All but the camera, which has a reader of its own.
 template <class Visitor>
 void visit_fields(Visitor& v, GeolocatorConfig& config) {
   v.field("method", config.method,
-          "full: objects, calibration and drift together; paper: one Kalman filter an object");
+          "joint: objects, calibration and drift together; paper: one Kalman filter an object");
   v.field("camera_orientation", config.camera_orientation,
           "composed, or added_angles as in the paper's eq. 6 (wrong when the vehicle tilts)");
   v.field("max_detections", config.max_detections, "a frame; of more, the most confident");
@@ -121,7 +122,7 @@ void visit_fields(Visitor& v, GeolocatorConfig& config) {
   v.section("state", config.state);
   v.section("projector", config.projector);
   v.section("paper", config.paper);
-  v.section("full", config.full);
+  v.section("joint", config.joint);
 }
 
 namespace io {
@@ -141,7 +142,7 @@ struct EnumNames<CameraOrientation> {
 template <>
 struct EnumNames<Method> {
   static constexpr std::array<std::pair<Method, const char*>, 2> all{
-      {{Method::kPaper, "paper"}, {Method::kFull, "full"}}};
+      {{Method::kPaper, "paper"}, {Method::kJoint, "joint"}}};
 };
 
 namespace {

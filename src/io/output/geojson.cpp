@@ -49,7 +49,7 @@ std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const E
     if (has_place(object)) features.push_back(to_feature(object));
   }
   ordered_json collection{{"type", "FeatureCollection"},
-                          {"method", estimator.calibration ? "full" : "paper"},
+                          {"method", estimator.calibration ? "joint" : "paper"},
                           {"calibration", calibration_to_json(estimator.calibration)},
                           {"counters", counters_to_json(estimator.counters)}};
   if (!estimator.references.empty()) collection["references"] = to_references(estimator.references);

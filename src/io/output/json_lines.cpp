@@ -123,7 +123,7 @@ std::string JsonLines::end(const RunRecord& run) {
     if (has_place(object)) lines += object_line(object);
   }
   return lines + line({{"type", "run"},
-                       {"method", run.estimator.calibration ? "full" : "paper"},
+                       {"method", run.estimator.calibration ? "joint" : "paper"},
                        {"calibration", calibration_to_json(run.estimator.calibration)},
                        {"counters", counters_to_json(run.estimator.counters)}});
 }

@@ -30,7 +30,7 @@ TEST(GeolocatorFields, FaultsOfAllStagesAreNamedByTheirPath) {
                              config);
   const std::string all = ::testing::PrintToString(problems);
   for (const char* expected :
-       {"method must be one of: paper, full", "paper.gate must lie in", "paper.gait is not a setting",
+       {"method must be one of: paper, joint", "paper.gate must lie in", "paper.gait is not a setting",
         "camera.lens is not a setting", "camera.horizontal_fov_deg must lie in", "camera.width must lie in",
         "colour is not a setting"}) {
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in " << all;

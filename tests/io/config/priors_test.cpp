@@ -86,7 +86,7 @@ TEST(CalibrationFile, OfAnEarlierFlightIsThePriorOfTheNext) {
 
 TEST(CalibrationFile, IsRefusedWithTheReason) {
   const auto read = [](const char* text) { return refusal([&] { parse_calibration(text, "f", {}, 0.4); }); };
-  EXPECT_NE(read("{\"calibration\": null}").find("--method full"), std::string::npos);
+  EXPECT_NE(read("{\"calibration\": null}").find("--method joint"), std::string::npos);
   EXPECT_NE(read("{}").find("boresight_x_deg.value must be a number"), std::string::npos);
   std::string exact = kLearnt;
   exact.replace(exact.find("0.01}"), 4, "0.00");

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/calibration/full_tracker.hpp"
+#include "geoloc/calibration/joint_tracker.hpp"
 #include "geoloc/geometry/angles.hpp"
 
 // What a frame's detections say, as looks.
@@ -30,8 +30,8 @@ Eigen::Matrix2d mean_frame_noise(const std::vector<Look>& looks) {
 
 }  // namespace
 
-void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, const Projector& projector,
-                             const FrameView& view) {
+void JointTracker::make_looks(const std::vector<LocatedDetection>& detections, const Projector& projector,
+                              const FrameView& view) {
   looks_.clear();
   moving_looks_.clear();
   const auto is_moving = [&](const LocatedDetection& located) {
@@ -54,8 +54,8 @@ void FullTracker::make_looks(const std::vector<LocatedDetection>& detections, co
 /// The attitude's error is the same in all looks of a frame: N of them with N times its variance say as much
 /// of it as one does, and would be N independent witnesses without. What the position does within seconds is
 /// shared too, but for the most part known from the nodes; it counts once.
-Look FullTracker::make_look(const LocatedDetection& located, double looks_that_share,
-                            const Projector& projector, const FrameView& view) const {
+Look JointTracker::make_look(const LocatedDetection& located, double looks_that_share,
+                             const Projector& projector, const FrameView& view) const {
   const double height_m =
       view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const FixJacobians jacobians = jacobians_of(located.fix, view, height_m);

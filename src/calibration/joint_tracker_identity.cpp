@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/calibration/full_tracker.hpp"
+#include "geoloc/calibration/joint_tracker.hpp"
 
 // Which tracks are one object, and which object is two.
 namespace geoloc {
@@ -22,7 +22,7 @@ constexpr double kLeastSplit_m = 0.1;  // a box's centre is not the same point o
 }  // namespace
 
 /// Two tracks that two looks of one frame made, or were matched to, are two objects.
-void FullTracker::note_same_frame_evidence() {
+void JointTracker::note_same_frame_evidence() {
   const double reach_m = 2.0 * config_.merge_radius_m;
   for (std::size_t seen = 0; seen < tracks_.size(); ++seen) {
     if (!is_seen(seen)) continue;
@@ -41,7 +41,7 @@ void FullTracker::note_same_frame_evidence() {
 }
 
 /// Whether the looks that came beside a younger neighbour are drawn away from it by more than noise does.
-bool FullTracker::is_drawn_aside(std::size_t track, std::size_t younger) const {
+bool JointTracker::is_drawn_aside(std::size_t track, std::size_t younger) const {
   const Mixture& mixture = estimates_[track].mixture;
   if (mixture.looks < kLooksToSplit) return false;
   const Eigen::Vector2d mean = mixture.sum_of_innovations / mixture.looks;
@@ -54,7 +54,7 @@ bool FullTracker::is_drawn_aside(std::size_t track, std::size_t younger) const {
 /// Of two neighbours that a detector took for one object for a while, the older track is made of looks at
 /// both and lies between them. Once it is seen beside the younger one its looks are drawn to one side; then
 /// it begins anew from them, since the sums do not tell which look showed which.
-void FullTracker::split_if_mixed(std::size_t track, std::size_t younger) {
+void JointTracker::split_if_mixed(std::size_t track, std::size_t younger) {
   const auto look_index = static_cast<std::size_t>(look_of_track_[track]);
   const JointAssociation::Match& match = matches_[look_index];
   Estimate& estimate = estimates_[track];
@@ -73,7 +73,7 @@ void FullTracker::split_if_mixed(std::size_t track, std::size_t younger) {
 
 /// Of the difference of two tracks. Their own noise is that of association: the sums count the noise of each
 /// frame as often as frames repeat it, which is too much for tracks that the same frames made.
-Eigen::Matrix2d FullTracker::covariance_of_difference(std::size_t a, std::size_t b) const {
+Eigen::Matrix2d JointTracker::covariance_of_difference(std::size_t a, std::size_t b) const {
   const Estimate &first = estimates_[a], &second = estimates_[b];
   const double fresh = 1.0 - shared_share_of_noise(first.last_look - second.last_look);
   const double shares = noise_share(tracks_[a]) + noise_share(tracks_[b]);
@@ -84,19 +84,19 @@ Eigen::Matrix2d FullTracker::covariance_of_difference(std::size_t a, std::size_t
 }
 
 /// What the frames' common noise leaves in a track: all of it, until it was seen for longer than that lasts.
-double FullTracker::noise_share(const Track& track) const {
+double JointTracker::noise_share(const Track& track) const {
   return std::min(1.0, noise_correlation_ / track.hits);
 }
 
 /// Near each other, and never seen side by side.
-bool FullTracker::are_not_told_apart(std::size_t a, std::size_t b) const {
+bool JointTracker::are_not_told_apart(std::size_t a, std::size_t b) const {
   const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
   return apart.squaredNorm() <= config_.merge_radius_m * config_.merge_radius_m &&
          !estimates_[a].neighbours.are_apart(tracks_[b].id);
 }
 
 /// Perhaps one object: not told apart, and known well enough to tell.
-bool FullTracker::may_be_one(std::size_t a, std::size_t b) const {
+bool JointTracker::may_be_one(std::size_t a, std::size_t b) const {
   const Eigen::Vector2d apart = tracks_[a].position_in_enu.mean - tracks_[b].position_in_enu.mean;
   return are_not_told_apart(a, b) && !(estimates_[a].is_known && estimates_[b].is_known) &&
          std::min(tracks_[a].hits, tracks_[b].hits) >= kHitsToCompare &&
@@ -104,7 +104,7 @@ bool FullTracker::may_be_one(std::size_t a, std::size_t b) const {
 }
 
 /// All that is known of track b goes to track a.
-void FullTracker::merge(std::size_t a, std::size_t b) {
+void JointTracker::merge(std::size_t a, std::size_t b) {
   landmarks_[estimates_[a].landmark].merge(landmarks_[estimates_[b].landmark], drift_);
   estimates_[a].pixel_information += estimates_[b].pixel_information;
   estimates_[a].last_look = std::max(estimates_[a].last_look, estimates_[b].last_look);
@@ -119,7 +119,7 @@ void FullTracker::merge(std::size_t a, std::size_t b) {
   ++book_.counters.merged;
 }
 
-void FullTracker::merge_compatible() {
+void JointTracker::merge_compatible() {
   for (std::size_t a = 0; a < tracks_.size(); ++a) {
     for (std::size_t b = a + 1; b < tracks_.size();) {
       if (may_be_one(a, b)) {
@@ -134,7 +134,7 @@ void FullTracker::merge_compatible() {
 }
 
 /// A track that may be another's twin does not wait for the next solution, once it is known well enough.
-void FullTracker::compare_soon(std::size_t track) {
+void JointTracker::compare_soon(std::size_t track) {
   if (tracks_[track].hits >= kHitsToCompare && !estimates_[track].is_compared) is_comparison_due_ = true;
 }
 

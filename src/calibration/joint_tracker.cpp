@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/full_tracker.hpp"
+#include "geoloc/calibration/joint_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
 
-// One frame, the solution, and the known points. full_tracker_looks.cpp, full_tracker_association.cpp,
-// full_tracker_identity.cpp and full_tracker_life_cycle.cpp hold what their names say.
+// One frame, the solution, and the known points. joint_tracker_looks.cpp, joint_tracker_association.cpp,
+// joint_tracker_identity.cpp and joint_tracker_life_cycle.cpp hold what their names say.
 namespace geoloc {
 namespace {
 
@@ -29,15 +29,15 @@ double frames_that_share(double time_constant_s, double pause_s) {
   return std::max(1.0, 2.0 * time_constant_s / pause_s);
 }
 
-FullTrackerConfig checked(const FullTrackerConfig& config) {
+JointTrackerConfig checked(const JointTrackerConfig& config) {
   throw_if_any(config.problems());
   return config;
 }
 
 }  // namespace
 
-FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint> known_points,
-                         int max_detections)
+JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points,
+                           int max_detections)
     : config_(checked(config)),
       drift_(config.drift),
       solver_(config.prior, config.drift.max_nodes),
@@ -72,17 +72,17 @@ FullTracker::FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint
 }
 
 /// Of the wandering, an axis; the reported accuracy is radial.
-double FullTracker::reported_sigma_m() const {
+double JointTracker::reported_sigma_m() const {
   return std::sqrt(0.5 * (1.0 - config_.constant_share)) * reported_accuracy_m_;
 }
 
 /// A receiver that wanders less than it reports is taken to be as much better in what no look can show.
-double FullTracker::sigma_offset_m() const {
+double JointTracker::sigma_offset_m() const {
   const double sigma_m = std::sqrt(0.5 * config_.constant_share) * reported_accuracy_m_;
   return std::max(config_.least_offset_sigma_m, drift_.position_scale() * sigma_m);
 }
 
-Calibration FullTracker::calibration_of_camera() const {
+Calibration JointTracker::calibration_of_camera() const {
   Calibration camera = calibration_;
   const double attitude = config_.sigma_attitude_bias_deg * kRadPerDeg;
   camera.covariance.diagonal().segment<3>(Index::kBoresight).array() += attitude * attitude;
@@ -91,8 +91,8 @@ Calibration FullTracker::calibration_of_camera() const {
   return camera;
 }
 
-void FullTracker::update(const std::vector<LocatedDetection>& detections, const Projector& projector,
-                         const FrameView& view) {
+void JointTracker::update(const std::vector<LocatedDetection>& detections, const Projector& projector,
+                          const FrameView& view) {
   begin_frame(view);
   make_looks(detections, projector, view);
   associate();
@@ -107,7 +107,7 @@ void FullTracker::update(const std::vector<LocatedDetection>& detections, const 
   list_all_tracks();
 }
 
-void FullTracker::begin_frame(const FrameView& view) {
+void JointTracker::begin_frame(const FrameView& view) {
   if (view.vehicle.sigma_horizontal_m)
     reported_accuracy_m_ = std::clamp(*view.vehicle.sigma_horizontal_m, 0.02, 100.0);
   if (frames_++ > 0) {
@@ -127,7 +127,7 @@ void FullTracker::begin_frame(const FrameView& view) {
                span_.weight_of_second * drift_.node(span_.first + 1).mean;
 }
 
-void FullTracker::track_moving(const Projector& projector, const FrameView& view) {
+void JointTracker::track_moving(const Projector& projector, const FrameView& view) {
   if (config_.moving.classes.empty()) return;
   const Eigen::Matrix2d offset_covariance =
       calibration_.covariance.block<2, 2>(Index::kOffset, Index::kOffset);
@@ -137,14 +137,14 @@ void FullTracker::track_moving(const Projector& projector, const FrameView& view
                  book_);
 }
 
-void FullTracker::list_all_tracks() {
+void JointTracker::list_all_tracks() {
   if (config_.moving.classes.empty()) return;
   all_tracks_.resize(tracks_.size() + moving_.tracks().size());
   std::merge(tracks_.begin(), tracks_.end(), moving_.tracks().begin(), moving_.tracks().end(),
              all_tracks_.begin(), [](const Track& a, const Track& b) { return a.id < b.id; });
 }
 
-void FullTracker::solve_if_due(VehicleTime now) {
+void JointTracker::solve_if_due(VehicleTime now) {
   const bool is_due = is_comparison_due_ || frames_ <= kEagerFrames || !solved_at_ || now < *solved_at_ ||
                       seconds(now - *solved_at_) >= config_.solve_period_s;
   if (!is_due) return;
@@ -157,7 +157,7 @@ void FullTracker::solve_if_due(VehicleTime now) {
   if (match_known_points() && solve()) state_covariances();
 }
 
-bool FullTracker::solve() {
+bool JointTracker::solve() {
   all_landmarks_.clear();
   for (const Estimate& estimate : estimates_) all_landmarks_.push_back(&landmarks_[estimate.landmark]);
   if (!solver_.solve(all_landmarks_, sigma_offset_m(), drift_, calibration_)) return false;
@@ -166,13 +166,13 @@ bool FullTracker::solve() {
   return true;
 }
 
-void FullTracker::state_covariances() {
+void JointTracker::state_covariances() {
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     tracks_[k].position_in_enu.covariance = solver_.covariance(landmarks_[estimates_[k].landmark], drift_);
   }
 }
 
-void FullTracker::cover_known_points(const Projector& projector, const FrameView& view) {
+void JointTracker::cover_known_points(const Projector& projector, const FrameView& view) {
   const double margin_px = 0.1 * projector.camera().intrinsics().height_px;
   for (std::size_t i = 0; i < known_points_.entries().size(); ++i) {
     const Eigen::Vector2d shown = shown_in_frame(known_points_.entries()[i].position_in_enu);
@@ -182,7 +182,7 @@ void FullTracker::cover_known_points(const Projector& projector, const FrameView
 
 /// A surveyed object's coordinates are information on its position, and through the head on all others'. True
 /// where there is some that the last solution did not have.
-bool FullTracker::match_known_points() {
+bool JointTracker::match_known_points() {
   if (known_points_.entries().empty()) return false;
   known_candidates_.clear();
   double variance = 0.0, own_variance = 0.0;  // an axis, means over the candidates
@@ -213,7 +213,7 @@ bool FullTracker::match_known_points() {
   return true;
 }
 
-void FullTracker::learn_wandering() {
+void JointTracker::learn_wandering() {
   const int pause = solutions_ < kSolutionsToSettle ? 1 : kSolutionsPerLessonLater;
   if (++solutions_ % pause != 0) return;
   const auto wandering = solver_.observed_wandering(drift_);

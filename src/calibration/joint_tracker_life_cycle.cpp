@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/calibration/full_tracker.hpp"
+#include "geoloc/calibration/joint_tracker.hpp"
 #include "geoloc/calibration/visibility.hpp"
 
 // What becomes of tracks: seen, missed, begun, removed.
@@ -16,18 +16,18 @@ constexpr double kMostOpportunities = 2000.0;
 }  // namespace
 
 /// As counted; never certain either way.
-double FullTracker::counted_detection_probability() const {
+double JointTracker::counted_detection_probability() const {
   return std::clamp(expected_hits_ / opportunities_, 0.05, 0.98);
 }
 
 /// Where this frame would show a place: corrections undone.
-Eigen::Vector2d FullTracker::shown_in_frame(const Eigen::Vector2d& position_in_enu) const {
+Eigen::Vector2d JointTracker::shown_in_frame(const Eigen::Vector2d& position_in_enu) const {
   return position_in_enu - calibration_.offset_m() - drift_now_.head<2>() + shift_;
 }
 
 /// Of a track in this frame: what was counted so far, where it is to be seen well.
-double FullTracker::detection_probability(std::size_t track, const Projector& projector,
-                                          const FrameView& view) const {
+double JointTracker::detection_probability(std::size_t track, const Projector& projector,
+                                           const FrameView& view) const {
   ShownObject object;
   object.position_in_enu = shown_in_frame(tracks_[track].position_in_enu.mean);
   object.sigma_m = std::sqrt(estimates_[track].own_covariance.trace() + estimates_[track].gain.squaredNorm());
@@ -41,7 +41,7 @@ double FullTracker::detection_probability(std::size_t track, const Projector& pr
 
 /// A younger track that may be the same object has this frame's look: begun when the vehicle came back with
 /// another drift, it would outlive the older one, and all that this one knows. nullopt: there is none.
-std::optional<std::size_t> FullTracker::seen_as(std::size_t k) const {
+std::optional<std::size_t> JointTracker::seen_as(std::size_t k) const {
   if (tracks_[k].status != TrackStatus::kConfirmed) return std::nullopt;
   for (std::size_t other = 0; other < tracks_.size(); ++other) {
     const bool is_young = tracks_[other].id > tracks_[k].id && tracks_[other].hits <= kHitsToCompare;
@@ -50,7 +50,7 @@ std::optional<std::size_t> FullTracker::seen_as(std::size_t k) const {
   return std::nullopt;
 }
 
-void FullTracker::weigh_missed(const Projector& projector, const FrameView& view) {
+void JointTracker::weigh_missed(const Projector& projector, const FrameView& view) {
   detection_probability_of_track_.assign(tracks_.size(), 0.0);
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     if (is_in_doubt_[k]) {
@@ -75,7 +75,7 @@ void FullTracker::weigh_missed(const Projector& projector, const FrameView& view
 }
 
 /// For the detection probability.
-void FullTracker::count_opportunity(bool was_seen) {
+void JointTracker::count_opportunity(bool was_seen) {
   opportunities_ += 1.0;
   expected_hits_ += was_seen ? 1.0 : 0.0;
   if (opportunities_ > kMostOpportunities) {
@@ -84,7 +84,7 @@ void FullTracker::count_opportunity(bool was_seen) {
   }
 }
 
-void FullTracker::absorb(std::size_t k, const Look& look, HostTime captured_at) {
+void JointTracker::absorb(std::size_t k, const Look& look, HostTime captured_at) {
   Track& track = tracks_[k];
   Estimate& estimate = estimates_[k];
   estimate.last_look = now_;
@@ -93,19 +93,19 @@ void FullTracker::absorb(std::size_t k, const Look& look, HostTime captured_at) 
   add_to_sums(k, look);
 }
 
-void FullTracker::add_to_sums(std::size_t k, const Look& look) {
+void JointTracker::add_to_sums(std::size_t k, const Look& look) {
   landmarks_[estimates_[k].landmark].add(look.observation, drift_);
   estimates_[k].pixel_information += look.pixel_noise.inverse();
   refresh(k);
 }
 
 /// Of a track that this look begins.
-Eigen::Matrix2d FullTracker::covariance_of_first(const Look& look) const {
+Eigen::Matrix2d JointTracker::covariance_of_first(const Look& look) const {
   return look.pixel_noise + look.jacobian * look.jacobian.transpose();
 }
 
 /// Share of a track's sums that comes from the drift nodes of this moment.
-Eigen::Matrix<double, 2, kNodeSize> FullTracker::recent_drift(const Landmark& landmark) const {
+Eigen::Matrix<double, 2, kNodeSize> JointTracker::recent_drift(const Landmark& landmark) const {
   Eigen::Matrix<double, 2, kNodeSize> sum = Eigen::Matrix<double, 2, kNodeSize>::Zero();
   for (const Landmark::NodeTerms& terms : landmark) {
     if (terms.number >= span_.first) sum += terms.B;
@@ -114,7 +114,7 @@ Eigen::Matrix<double, 2, kNodeSize> FullTracker::recent_drift(const Landmark& la
 }
 
 /// Position and its derivatives from the sums.
-void FullTracker::refresh(std::size_t k) {
+void JointTracker::refresh(std::size_t k) {
   Estimate& estimate = estimates_[k];
   const Landmark& landmark = landmarks_[estimate.landmark];
   estimate.own_covariance = landmark.A().inverse();
@@ -123,7 +123,7 @@ void FullTracker::refresh(std::size_t k) {
   tracks_[k].position_in_enu.mean = landmark.position(calibration_.mean, drift_);
 }
 
-void FullTracker::absorb_matched(HostTime captured_at) {
+void JointTracker::absorb_matched(HostTime captured_at) {
   const double found = counted_detection_probability();
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (!is_matched(i)) continue;
@@ -139,7 +139,7 @@ void FullTracker::absorb_matched(HostTime captured_at) {
   }
 }
 
-void FullTracker::start_tentative(HostTime captured_at) {
+void JointTracker::start_tentative(HostTime captured_at) {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (matches_[i].track != JointAssociation::kNone) continue;
     if (tracks_.size() >= static_cast<std::size_t>(config_.max_tracks)) {
@@ -169,13 +169,13 @@ void FullTracker::start_tentative(HostTime captured_at) {
   }
 }
 
-void FullTracker::remove(std::size_t k) {
+void JointTracker::remove(std::size_t k) {
   free_landmarks_.push_back(estimates_[k].landmark);
   tracks_.erase(tracks_.begin() + static_cast<std::ptrdiff_t>(k));
   estimates_.erase(estimates_.begin() + static_cast<std::ptrdiff_t>(k));
 }
 
-void FullTracker::remove_improbable() {
+void JointTracker::remove_improbable() {
   for (std::size_t k = tracks_.size(); k-- > 0;) {
     tracks_[k].existence = estimates_[k].existence.probability();
     if (*tracks_[k].existence >= config_.delete_probability) continue;

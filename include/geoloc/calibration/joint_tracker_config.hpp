@@ -19,7 +19,7 @@ struct MovingConfig {
   std::vector<std::string> problems() const;
 };
 
-struct FullTrackerConfig {
+struct JointTrackerConfig {
   CalibrationPrior prior;
   DriftConfig drift;
   MovingConfig moving;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "geoloc/calibration/full_tracker.hpp"
+#include "geoloc/calibration/joint_tracker.hpp"
 
 // Which look shows which track.
 namespace geoloc {
@@ -22,7 +22,7 @@ double median(std::vector<double>& values) {
 }  // namespace
 
 /// After each solution.
-void FullTracker::find_roots() {
+void JointTracker::find_roots() {
   const auto root = [](auto covariance) {
     covariance.diagonal().array() += kTiny;
     return decltype(covariance)(covariance.llt().matrixL());
@@ -33,8 +33,8 @@ void FullTracker::find_roots() {
 }
 
 /// With C = R R', J C J' is the square of J R: cheap for every pair of look and track.
-SharedError::Row FullTracker::whitened(const SharedError::CalibrationRow& by_calibration,
-                                       const Eigen::Matrix<double, 2, kNodeSize>& by_drift) const {
+SharedError::Row JointTracker::whitened(const SharedError::CalibrationRow& by_calibration,
+                                        const Eigen::Matrix<double, 2, kNodeSize>& by_drift) const {
   SharedError::Row row = SharedError::Row::Zero();
   row.middleCols<SharedError::kCalibrationSize>(SharedError::kCalibration) =
       by_calibration * calibration_root_;
@@ -44,7 +44,7 @@ SharedError::Row FullTracker::whitened(const SharedError::CalibrationRow& by_cal
 
 /// All tracks that a look may show; those that are farther than the trace of the covariance allows are not
 /// looked at closely.
-void FullTracker::add_pairings() {
+void JointTracker::add_pairings() {
   if (looks_.empty()) return;
   SharedError::Row mean = SharedError::Row::Zero();
   for (const Look& look : looks_) mean += look.jacobian;
@@ -69,13 +69,13 @@ void FullTracker::add_pairings() {
 }
 
 /// Of the noise of two frames.
-double FullTracker::shared_share_of_noise(Duration pause) const {
+double JointTracker::shared_share_of_noise(Duration pause) const {
   return std::exp(-std::abs(seconds(pause)) / std::max(config_.fast_time_constant_s, 1e-3));
 }
 
 /// Frames within a second share most of their noise: it cancels between a look and a track that was seen just
 /// now, and a track seen for a short time only has it whole.
-Pairing FullTracker::pairing(std::size_t look_index, std::size_t track_index) const {
+Pairing JointTracker::pairing(std::size_t look_index, std::size_t track_index) const {
   const Look& look = looks_[look_index];
   const Track& track = tracks_[track_index];
   const Estimate& estimate = estimates_[track_index];
@@ -95,7 +95,7 @@ Pairing FullTracker::pairing(std::size_t look_index, std::size_t track_index) co
 }
 
 /// Median of the residuals: what all looks of this frame share.
-Eigen::Vector2d FullTracker::common_shift() {
+Eigen::Vector2d JointTracker::common_shift() {
   Eigen::Vector2d shift = Eigen::Vector2d::Zero();
   for (int axis = 0; axis < 2; ++axis) {
     median_scratch_.clear();
@@ -113,7 +113,7 @@ Eigen::Vector2d FullTracker::common_shift() {
 /// A look that may show either of two tracks, which no other look of the frame can show and no frame has
 /// shown side by side, shows one object that was begun twice: the look is the older one's, and the younger
 /// one dies of being missed. Otherwise both would be in doubt for ever, and learn nothing.
-void FullTracker::prefer_older_twins() {
+void JointTracker::prefer_older_twins() {
   for (std::size_t i = 0; i < looks_.size(); ++i) {
     if (!matches_[i].is_ambiguous) continue;
     if (const Pairing* const oldest = oldest_twin(i)) matches_[i] = JointAssociation::match_of(*oldest);
@@ -121,7 +121,7 @@ void FullTracker::prefer_older_twins() {
 }
 
 /// Among the pairs of this look; none where they are not twins.
-const Pairing* FullTracker::oldest_twin(std::size_t look) const {
+const Pairing* JointTracker::oldest_twin(std::size_t look) const {
   const auto is_of_look = [&](const Pairing& pairing) { return pairing.look == static_cast<int>(look); };
   const Pairing* oldest = nullptr;
   for (const Pairing& pairing : association_.pairings()) {
@@ -141,13 +141,13 @@ const Pairing* FullTracker::oldest_twin(std::size_t look) const {
   return twins > 0 ? oldest : nullptr;
 }
 
-bool FullTracker::is_older(int track, int other) const {
+bool JointTracker::is_older(int track, int other) const {
   const Track &a = tracks_[static_cast<std::size_t>(track)], &b = tracks_[static_cast<std::size_t>(other)];
   return std::make_tuple(a.status == TrackStatus::kConfirmed, a.hits, b.id) >
          std::make_tuple(b.status == TrackStatus::kConfirmed, b.hits, a.id);
 }
 
-void FullTracker::associate() {
+void JointTracker::associate() {
   association_.begin(looks_.size(), config_.gate, config_.ambiguity);
   add_pairings();
   matches_ = association_.solve();
@@ -165,7 +165,7 @@ void FullTracker::associate() {
 }
 
 /// Whether the look shows a track, and no other may be meant.
-bool FullTracker::is_matched(std::size_t look) const {
+bool JointTracker::is_matched(std::size_t look) const {
   const JointAssociation::Match& match = matches_[look];
   return match.track != JointAssociation::kNone && !match.is_ambiguous;
 }

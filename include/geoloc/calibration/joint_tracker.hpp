@@ -8,8 +8,8 @@
 
 #include "geoloc/calibration/arrowhead.hpp"
 #include "geoloc/calibration/existence.hpp"
-#include "geoloc/calibration/full_tracker_config.hpp"
 #include "geoloc/calibration/joint_association.hpp"
+#include "geoloc/calibration/joint_tracker_config.hpp"
 #include "geoloc/calibration/known_points.hpp"
 #include "geoloc/calibration/linearize.hpp"
 #include "geoloc/calibration/look.hpp"
@@ -22,11 +22,11 @@ namespace geoloc {
 
 /// Objects and calibration together (docs/method.md): every look at an object is information on the object,
 /// on the camera's calibration and on the drift of the vehicle's state.
-class FullTracker {
+class JointTracker {
  public:
   /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
   /// given.
-  FullTracker(const FullTrackerConfig& config, std::vector<KnownPoint> known_points, int max_detections);
+  JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points, int max_detections);
 
   /// The frame of all positions, before the first update().
   void set_local_frame(const LocalFrame& frame) { known_points_.place(frame); }
@@ -136,7 +136,7 @@ class FullTracker {
   double reported_sigma_m() const;
   double sigma_offset_m() const;
 
-  FullTrackerConfig config_;
+  JointTrackerConfig config_;
   DriftTimeline drift_;
   ArrowheadSolver solver_;
   Calibration calibration_;
