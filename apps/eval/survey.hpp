@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "geoloc/calibration/known_points.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/io/recording/recording.hpp"
+#include "geoloc/tracking/known_points.hpp"
 
 namespace geoloc::apps {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geoloc/calibration/landmark.hpp"
-#include "geoloc/tracking/frame_view.hpp"
+#include "geoloc/projection/frame_view.hpp"
 
 namespace geoloc {
 

@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "geoloc/calibration/joint_tracker.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 #include "geoloc/state/state_provider.hpp"
+#include "geoloc/tracking/joint_tracker.hpp"
 #include "geoloc/tracking/paper_tracker.hpp"
 
 namespace geoloc {

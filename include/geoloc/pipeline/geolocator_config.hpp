@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "geoloc/calibration/joint_tracker_config.hpp"
-#include "geoloc/calibration/known_points.hpp"
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
+#include "geoloc/tracking/joint_tracker_config.hpp"
+#include "geoloc/tracking/known_points.hpp"
 #include "geoloc/tracking/paper_tracker.hpp"
 
 namespace geoloc {

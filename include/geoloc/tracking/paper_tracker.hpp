@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/projection/frame_view.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/assignment.hpp"
-#include "geoloc/tracking/frame_view.hpp"
 #include "geoloc/tracking/track.hpp"
 
 namespace geoloc {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geoloc/calibration/known_points.hpp"
+#include "geoloc/tracking/known_points.hpp"
 
 namespace geoloc::io {
 

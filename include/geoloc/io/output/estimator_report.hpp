@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "geoloc/calibration/calibration.hpp"
-#include "geoloc/calibration/known_points.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
+#include "geoloc/tracking/known_points.hpp"
 
 namespace geoloc::io {
 

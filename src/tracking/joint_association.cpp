@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/joint_association.hpp"
+#include "geoloc/tracking/joint_association.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/calibration/joint_tracker.hpp"
+#include "geoloc/tracking/joint_tracker.hpp"
 
 // Which tracks are one object, and which object is two.
 namespace geoloc {

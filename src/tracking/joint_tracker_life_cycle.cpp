@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/calibration/joint_tracker.hpp"
-#include "geoloc/calibration/visibility.hpp"
+#include "geoloc/tracking/joint_tracker.hpp"
+#include "geoloc/tracking/visibility.hpp"
 
 // What becomes of tracks: seen, missed, begun, removed.
 namespace geoloc {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "geoloc/calibration/joint_tracker.hpp"
+#include "geoloc/tracking/joint_tracker.hpp"
 
 // Which look shows which track.
 namespace geoloc {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/calibration/joint_tracker.hpp"
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/tracking/joint_tracker.hpp"
 
 // What a frame's detections say, as looks.
 namespace geoloc {

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "geoloc/calibration/joint_association.hpp"
 #include "geoloc/calibration/landmark.hpp"
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/tracking/joint_association.hpp"
 
 namespace geoloc {
 

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "geoloc/calibration/existence.hpp"
-#include "geoloc/calibration/joint_tracker_config.hpp"
-#include "geoloc/calibration/look.hpp"
-#include "geoloc/calibration/neighbours.hpp"
+#include "geoloc/projection/frame_view.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/assignment.hpp"
 #include "geoloc/tracking/constant_velocity.hpp"
-#include "geoloc/tracking/frame_view.hpp"
+#include "geoloc/tracking/existence.hpp"
+#include "geoloc/tracking/joint_tracker_config.hpp"
+#include "geoloc/tracking/look.hpp"
+#include "geoloc/tracking/neighbours.hpp"
 #include "geoloc/tracking/track.hpp"
 
 namespace geoloc {

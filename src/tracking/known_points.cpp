@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/known_points.hpp"
+#include "geoloc/tracking/known_points.hpp"
 
 #include <algorithm>
 #include <cmath>

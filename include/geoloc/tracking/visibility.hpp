@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "geoloc/projection/frame_view.hpp"
 #include "geoloc/projection/projector.hpp"
-#include "geoloc/tracking/frame_view.hpp"
 
 namespace geoloc {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "geoloc/calibration/joint_association.hpp"
 #include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/tracking/joint_association.hpp"
 
 namespace geoloc {
 

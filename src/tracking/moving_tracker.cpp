@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/moving_tracker.hpp"
+#include "geoloc/tracking/moving_tracker.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/calibration/visibility.hpp"
+#include "geoloc/tracking/visibility.hpp"
 
 namespace geoloc {
 namespace {

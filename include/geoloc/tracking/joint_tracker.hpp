@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "geoloc/calibration/arrowhead.hpp"
-#include "geoloc/calibration/existence.hpp"
-#include "geoloc/calibration/joint_association.hpp"
-#include "geoloc/calibration/joint_tracker_config.hpp"
-#include "geoloc/calibration/known_points.hpp"
 #include "geoloc/calibration/linearize.hpp"
-#include "geoloc/calibration/look.hpp"
-#include "geoloc/calibration/moving_tracker.hpp"
-#include "geoloc/calibration/neighbours.hpp"
-#include "geoloc/tracking/frame_view.hpp"
+#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/tracking/existence.hpp"
+#include "geoloc/tracking/joint_association.hpp"
+#include "geoloc/tracking/joint_tracker_config.hpp"
+#include "geoloc/tracking/known_points.hpp"
+#include "geoloc/tracking/look.hpp"
+#include "geoloc/tracking/moving_tracker.hpp"
+#include "geoloc/tracking/neighbours.hpp"
 #include "geoloc/tracking/track.hpp"
 
 namespace geoloc {

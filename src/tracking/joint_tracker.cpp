@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/joint_tracker.hpp"
+#include "geoloc/tracking/joint_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
