@@ -110,7 +110,7 @@ TEST(Visibility, FallsWithTheDistanceAndEndsAtTheProjectorsRange) {
     const double along_axis =
         north_m * ahead / range_m + 30.0 * down / range_m;  // cosine of the pixel's angle
     const double expected_m_px = std::sqrt(aside_m_px * deep_m_px) * std::pow(along_axis, 1.5);
-    const double size_m = 2.0;
+    const double size_m = 2.5;
     const double expected = std::min(1.0, size_m / expected_m_px / 6.0 - 1.0);
     const double actual = visibility(object_at(0, north_m, size_m), projector, view, kCentreNoise_px, 6.0);
     EXPECT_NEAR(actual, expected, 1e-9) << north_m;
