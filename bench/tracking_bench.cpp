@@ -89,7 +89,7 @@ void assignment(benchmark::State& state) {
       Eigen::MatrixXd::NullaryExpr(state.range(0), state.range(1), [&] { return uniform(random); });
   AssignmentSolver solver;
   for (auto _ : state) {
-    int first_column = solver.solve(costs, 3.0).front();
+    std::size_t first_column = solver.solve(costs, 3.0).front();
     benchmark::DoNotOptimize(first_column);
   }
   state.SetItemsProcessed(state.iterations());

@@ -9,7 +9,8 @@ endif()
 function(geoloc_set_flags target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)  # as g++ takes -Wconversion in C++: indices are std::size_t
   if(NOT CMAKE_UNITY_BUILD)  # there, the names of one file hide those of another
     target_compile_options(${target} PRIVATE -Wshadow)
   endif()
@@ -63,7 +64,7 @@ function(geoloc_add_test name)
   # It replaces operator new, which must not be seen where it is called.
   set_source_files_properties("${PROJECT_SOURCE_DIR}/tests/support/allocation_counter.cpp"
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests" "${PROJECT_SOURCE_DIR}/src")
   target_compile_definitions(${target} PRIVATE
     GEOLOC_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data" GEOLOC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)

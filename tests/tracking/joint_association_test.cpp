@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/joint_association.hpp"
+#include "tracking/joint_association.hpp"
 
 #include <gtest/gtest.h>
 
