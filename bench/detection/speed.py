@@ -65,7 +65,7 @@ def measure(groups: dict[str, list[Contender]], rounds: int, looks: int) -> None
 
 def table(groups: dict[str, list[Contender]]) -> str:
     """Medians, and the median over the rounds of a contender's share of the peer's time in the same round."""
-    lines = ["| network | run by | ms a picture, least | median | pictures a second | times the peer's time | found |", "|---|---|---|---|---|---|---|"]
+    lines = ["| network | run by | minimum ms per image | median | images per second | time relative to ONNX Runtime | found |", "|---|---|---|---|---|---|---|"]
     for name, group in groups.items():
         for contender in group:
             shares = [own / peer for own, peer in zip(contender.times_ms, group[0].times_ms)]
