@@ -55,7 +55,7 @@ def compare(tuned: dict[str, TrackerSettings], experiment: Experiment) -> list[d
 def to_markdown(rows: list[dict]) -> str:
     """Means over the runs of RMSE and CPU time, sums of the counts."""
     lines = [
-        "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs | CPU time a run s |",
+        "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs | CPU s per run |",
         "|---" * 9 + "|",
     ]
     for key in dict.fromkeys((row["set_name"], row["method"]) for row in rows):
