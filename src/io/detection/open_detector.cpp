@@ -10,7 +10,7 @@
 namespace geoloc::io {
 namespace {
 
-/// The network for second looks: the one that was asked for, or the one that the model names. Empty: none.
+/// The second-look network: the one configured, or the one that the model names. Empty: none.
 std::filesystem::path second_look_file(const DetectorFiles& files) {
   if (files.second_look) return *files.second_look;
   const auto properties = read_model_metadata(files.model).properties;

@@ -16,8 +16,7 @@ struct FrameCounts {
   std::uint64_t frames = 0;         ///< checked and handed out
   std::uint64_t signed_frames = 0;  ///< of those, with a signature (not verified)
   std::uint64_t bad_frames = 0;     ///< the header of a known message, but a checksum or length that is wrong
-  std::uint64_t unknown_frames =
-      0;  ///< of messages that no known dialect has: ignored, as they cannot be checked
+  std::uint64_t unknown_frames = 0;  ///< of unknown messages: ignored, as they cannot be checked
   std::uint64_t junk_bytes = 0;
 };
 
