@@ -38,7 +38,7 @@ def require_agreement(name: str, ours: Score, printed: Score) -> None:
 
 
 def compare(tuned: dict[str, TrackerSettings], experiment: Experiment) -> list[dict]:
-    """A row for each method on one recording."""
+    """One row per method for one recording."""
     run, replayed = record_and_replay(experiment)
     results = []
     for geoloc in replayed:
