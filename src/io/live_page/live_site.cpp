@@ -118,9 +118,9 @@ LiveSite::LiveSite(const LiveDocument& document, PictureBoard& board, const Live
 
 PageAnswer LiveSite::answer(const PageRequest& request) const {
   if (!is_own_host(request.host, own_names_))
-    return refuse(421, "Ask by this computer's address: the name in the request is not its own.");
+    return refuse(421, "Use this computer's address: the name in the request is not one of its own.");
   if (request.method != "GET" && request.method != "HEAD") return refuse(405, "Only GET and HEAD.");
-  if (is_on_behalf_of_another_site(request)) return refuse(403, "Not for pages of other sites.");
+  if (is_on_behalf_of_another_site(request)) return refuse(403, "Not available to pages of other sites.");
   return dispatch(request);
 }
 
