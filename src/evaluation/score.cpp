@@ -17,7 +17,8 @@ double root_mean_square(const std::vector<Eigen::Vector2d>& errors, const Eigen:
   return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-/// Targets that were not found although a neighbour within reach was: its object took the detections of both.
+/// Counts targets that were not found although a neighbour within reach was: the neighbour's object took the
+/// detections of both.
 int count_merged_pairs(const std::vector<Eigen::Vector2d>& targets, const std::vector<char>& is_found) {
   int pairs = 0;
   for (std::size_t lost = 0; lost < targets.size(); ++lost) {
