@@ -28,7 +28,7 @@ const io::Tlog& flight() {
   return log;
 }
 
-/// All frames of a flight one after the other, with up to `most_junk` random bytes before each.
+/// All frames of a flight in sequence, with up to `most_junk` random bytes before each.
 Bytes stream(std::size_t most_junk) {
   std::mt19937 random(1);
   Bytes bytes;
@@ -67,7 +67,7 @@ void BM_FrameParser(benchmark::State& state) {
 }
 BENCHMARK(BM_FrameParser)->Arg(0)->Arg(40)->ArgName("junk");
 
-/// The parser of MAVLink's own C library.
+/// The parser of MAVLink's own C library, for comparison.
 void BM_MavlinkCLibrary(benchmark::State& state) {
   const Bytes bytes = stream(static_cast<std::size_t>(state.range(0)));
   std::int64_t found = 0;
@@ -84,7 +84,7 @@ void BM_MavlinkCLibrary(benchmark::State& state) {
 }
 BENCHMARK(BM_MavlinkCLibrary)->Arg(0)->Arg(40)->ArgName("junk");
 
-/// Framing, decoding, clock and gates: all that a datagram of one frame costs.
+/// Framing, decoding, clock and gates: the whole cost of a datagram with one frame.
 void BM_VehicleLink(benchmark::State& state) {
   NullSink sink;
   for (auto _ : state) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame costs the estimator: the whole of process(), the assignment alone, and the state buffer.
+// The estimator's time per frame: the whole of process(), the assignment alone, and the state buffer.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ constexpr VehicleTime kStart{60s};
 constexpr double kHeight_m = 100.0;
 constexpr double kSpacing_m = 3.0;  // beyond gate and merging distance
 
-/// Hovering level, nose north: telemetry at that time.
+/// Adds telemetry of a vehicle that hovers level with its nose to the north.
 void hover(Geolocator& geolocator, VehicleTime time) {
   geolocator.add(AttitudeSample{time, {}});
   PositionSample position;
@@ -43,14 +43,14 @@ std::vector<Detection> grid_of_detections(int count, double focal_px) {
   return detections;
 }
 
-/// One method: `detections` of a frame against `tracks` that all are in view, ten frames a second.
+/// One method with `detections` in a frame and `tracks`, all of them in view, at ten frames per second.
 void process_frame(benchmark::State& state, Method method) {
   const auto detections = static_cast<std::size_t>(state.range(0));
   const int tracks = static_cast<int>(state.range(1));
   GeolocatorConfig config;
   config.method = method;
   config.max_detections = tracks;
-  config.paper.max_penalty = 1'000'000'000;  // those that are not detected stay
+  config.paper.max_penalty = 1'000'000'000;  // tracks that are not detected stay
   Geolocator geolocator(config);
   FrameDetections frame;
   frame.captured_at = kStart;
@@ -76,7 +76,7 @@ BENCHMARK_CAPTURE(process_frame, paper, Method::kPaper)
     ->Args({1, 1000})
     ->Args({100, 1000})
     ->ArgNames({"detections", "tracks"});
-// Without those whose tracks are not detected: the joint method would remove these.
+// Cases with undetected tracks are left out: the joint method would remove these tracks.
 BENCHMARK_CAPTURE(process_frame, joint, Method::kJoint)
     ->Args({30, 30})
     ->Args({100, 100})
@@ -89,7 +89,7 @@ void assignment(benchmark::State& state) {
       Eigen::MatrixXd::NullaryExpr(state.range(0), state.range(1), [&] { return uniform(random); });
   AssignmentSolver solver;
   for (auto _ : state) {
-    int first_column = solver.solve(costs, 3.0).front();
+    std::size_t first_column = solver.solve(costs, 3.0).front();
     benchmark::DoNotOptimize(first_column);
   }
   state.SetItemsProcessed(state.iterations());

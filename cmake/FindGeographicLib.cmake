@@ -1,5 +1,6 @@
-# GeographicLib::GeographicLib. Debian's libgeographiclib-dev carries no CMake package, only a find module outside
-# CMake's path; upstream installs a package. This finds either, and is installed beside geoloc's own package.
+# Finds GeographicLib::GeographicLib. Debian's libgeographiclib-dev carries no CMake package, only a find module
+# outside CMake's path; upstream installs a package. This finds either, and is installed beside geoloc's own
+# package.
 find_package(GeographicLib CONFIG QUIET)
 if(NOT TARGET GeographicLib::GeographicLib)
   find_path(GeographicLib_INCLUDE_DIR GeographicLib/LocalCartesian.hpp)

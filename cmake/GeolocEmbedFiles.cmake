@@ -1,5 +1,6 @@
-# geoloc_embed_files(target page_files a.html b.css …): text files as they are, in the program: a function
-# geoloc::io::page_files() that gives them (src/io/embedded_file.hpp). Made at build time, by this file run as a script.
+# geoloc_embed_files(target page_files a.html b.css …): builds text files into the program, as a function
+# geoloc::io::page_files() that returns them (src/io/embedded_file.hpp). It is generated at build time by running this
+# file as a script.
 if(CMAKE_SCRIPT_MODE_FILE)
   set(_arrays "")
   set(_entries "")

@@ -1,5 +1,5 @@
-# The library's CMake package: find_package(geoloc) gives geoloc::geoloc, which needs Eigen and GeographicLib alone.
-# Programs, model and flights go beside it.
+# The library's CMake package: find_package(geoloc) gives geoloc::geoloc, which depends only on Eigen and
+# GeographicLib. Programs, model and flights are installed beside it.
 include(CMakePackageConfigHelpers)
 
 set(_package "${CMAKE_INSTALL_LIBDIR}/cmake/geoloc")

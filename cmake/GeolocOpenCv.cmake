@@ -1,6 +1,6 @@
-# opencv_core, opencv_imgproc, … as targets. OpenCV's own CMake package where there is one; otherwise the libraries
-# themselves: Debian's narrow packages (libopencv-dnn-dev …) are a fraction of libopencv-dev, which alone has the package.
-# In every folder that uses it: what the package imports is known there only.
+# Defines opencv_core, opencv_imgproc, … as targets, from OpenCV's own CMake package if there is one, otherwise from the
+# libraries themselves: Debian's small packages (libopencv-dnn-dev …) are a fraction of libopencv-dev, the only one with
+# the CMake package. Every folder that uses OpenCV must include this, because imported targets are visible only there.
 include_guard(DIRECTORY)
 set(_components core imgproc imgcodecs calib3d dnn)
 find_package(OpenCV 4.5 QUIET COMPONENTS ${_components})

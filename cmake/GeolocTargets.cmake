@@ -1,4 +1,5 @@
-# How every target of the project is made: one place for the language level, warnings, sanitizers and folders.
+# Functions that make every target of the project: one place for the language level, warnings, sanitizers and
+# folders.
 
 find_program(GEOLOC_CCACHE ccache)
 if(GEOLOC_CCACHE AND PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
@@ -9,8 +10,9 @@ endif()
 function(geoloc_set_flags target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion)
-  if(NOT CMAKE_UNITY_BUILD)  # there, the names of one file hide those of another
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion
+    $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)  # as g++ takes -Wconversion in C++: indices are std::size_t
+  if(NOT CMAKE_UNITY_BUILD)  # in a unity build, names of one file hide those of another
     target_compile_options(${target} PRIVATE -Wshadow)
   endif()
   if(GEOLOC_WARNINGS_AS_ERRORS)
@@ -50,8 +52,8 @@ function(geoloc_add_program target)
     RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin" INSTALL_RPATH "${_libraries_elsewhere}")
 endfunction()
 
-# geoloc_add_test(tracking SOURCES a_test.cpp … LIBRARIES …): one GoogleTest program a module, each case a ctest test.
-# APART: its files name helpers alike, so they are never compiled as one (CMAKE_UNITY_BUILD).
+# geoloc_add_test(tracking SOURCES a_test.cpp … LIBRARIES …): one GoogleTest program per module, each case a ctest
+# test. APART: its files have helpers with the same names, so they are never compiled as one (CMAKE_UNITY_BUILD).
 function(geoloc_add_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "APART" "TIMEOUT" "SOURCES;LIBRARIES")
   set(target ${name}_test)
@@ -60,10 +62,10 @@ function(geoloc_add_test name)
   if(arg_APART)
     set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
   endif()
-  # It replaces operator new, which must not be seen where it is called.
+  # It replaces operator new, whose definition must not be visible to its callers.
   set_source_files_properties("${PROJECT_SOURCE_DIR}/tests/support/allocation_counter.cpp"
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests" "${PROJECT_SOURCE_DIR}/src")
   target_compile_definitions(${target} PRIVATE
     GEOLOC_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data" GEOLOC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""scripts/compare_replays.py BEFORE_BIN AFTER_BIN [FOLDER]: do two builds compute the same, byte for byte?
+"""scripts/compare_replays.py BEFORE_BIN AFTER_BIN [FOLDER]: compares the results of two builds byte for byte.
 
 Makes recordings with AFTER_BIN/geoloc_sim in FOLDER (default: build/compare; kept, and used again), replays each with
 both builds' geoloc_replay, and compares --out, --csv and --raw. Names of settings may differ between the builds: they are
@@ -38,7 +38,7 @@ def recordings():
 
 
 def add_moving_class(recording, moving):
-    """A copy whose odd detections are of class 1, with a box that crosses the image besides."""
+    """A copy in which every other detection is of class 1, plus a box that crosses the image."""
     moving.mkdir()
     for file in recording.iterdir():
         if file.name != "frames.jsonl":
@@ -68,7 +68,7 @@ class Build:
         self.joint = "joint" if "joint" in json.loads(run(self.replay, "--print-config")) else "full"
 
     def arguments(self, variant, recording, scratch):
-        """The options of a variant, in this build's words."""
+        """The options of a variant, with this build's names."""
         if variant == "paper":
             return ["--method", "paper"]
         if variant == "moving":

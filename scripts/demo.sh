@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # scripts/demo.sh [--fast] [--method NAME] [--flight NAME] [--scenario 1|2|3] [--seed N] [--out DIR]
 # The whole system on one computer: a simulated drone sends MAVLink over UDP and its camera over RTSP; geoloc_app finds
-# 30 targets in the video and says where they are. --fast flies six times as fast.
+# 30 targets in the video and locates them. --fast flies at six times real time.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"

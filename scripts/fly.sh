@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # scripts/fly.sh BIN_FOLDER OUT_FOLDER [OPTION-OF-GEOLOC_SIM…] -- [OPTION-OF-GEOLOC_APP…]
-# Flies geoloc_sim and watches it with geoloc_app, over the loopback. When either ends early, the other is stopped and the
-# reason is the last thing shown.
+# Runs geoloc_sim and geoloc_app together over the loopback. If either ends early, the other is stopped and the reason
+# is shown last.
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n '3,5s/^# //p' "$0" >&2; exit 2; }
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
@@ -24,10 +24,10 @@ stop_all() {
 trap stop_all EXIT
 trap 'exit 130' INT TERM
 
-# fail PROGRAM STATUS LOG: the program's own words, at the end, where they are read.
+# fail PROGRAM STATUS LOG: shows the program's own messages last, where they are read.
 fail() {
   local words
-  sleep 0.1  # tee's
+  sleep 0.1  # for tee
   words=$(tr '\r' '\n' <"$3" | grep -v '^[[:space:]]*$' | tail -n 5) || true
   say "$1 ended early, with status $2:"
   printf '%s\n' "${words:-(it said nothing)}" >&2

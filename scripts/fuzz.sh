@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/fuzz.sh [SECONDS]: builds the fuzz targets with clang and runs each for so long (default 60), as many at a time as
-# there are cores. What broke one lies in build/fuzz/broken.
+# scripts/fuzz.sh [SECONDS]: builds the fuzz targets with clang and runs each for SECONDS (default 60), as many at a time as
+# there are cores. Inputs that broke one are in build/fuzz/broken.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"
@@ -14,7 +14,7 @@ cmake --preset fuzz >build/configure.log 2>&1 || { cat build/configure.log; exit
 say "Building (fuzz)"
 cmake --build build/fuzz --target fuzzers
 
-# A target starts from well-formed inputs, and from what earlier runs here found.
+# A target starts from well-formed inputs and from those that earlier runs found here.
 fuzz() {
   local name=$1 corpus=build/fuzz/corpus/$1 log=build/fuzz/$1.log seeds=()
   case $name in

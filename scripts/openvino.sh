@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/openvino.sh: puts OpenVINO, the faster of the two back ends of detection, into build/openvino (PyPI, version pinned, 60 MB
-# to fetch). Whatever is configured afterwards is built with it; without it everything but --backend openvino works.
+# scripts/openvino.sh: installs OpenVINO, the faster of the two detection back ends, into build/openvino (PyPI, pinned version, 60
+# MB download). Builds configured afterwards include it; without it everything except --backend openvino works.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The packages of Debian 12 and 13, which go by the same names, and how the scripts install them. Sourced.
+# The packages of Debian 12 and 13, which have the same names, and how the scripts install them. To be
+# sourced.
 
 BUILD_PACKAGES=(
   g++ make cmake ninja-build pkg-config python3 python3-venv
@@ -14,11 +15,12 @@ RUN_PACKAGES=(
 )
 TEST_PACKAGES=(git ccache chromium libgtest-dev libbenchmark-dev gdal-bin)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-dev)
-OPENVINO_VERSION=2026.4.1  # of PyPI
+OPENVINO_VERSION=2026.4.1  # on PyPI
 
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
 
-# install_packages NAME…: installs what is missing, as root or with sudo. Nothing to do costs no time and no network.
+# install_packages NAME…: installs missing packages, as root or with sudo. If none is missing, it takes no time and
+# no network.
 install_packages() {
   local missing=() package
   for package in "$@"; do
@@ -31,7 +33,7 @@ install_packages() {
     as_root=(sudo)
   fi
   say "Installing ${#missing[@]} packages"
-  mkdir -p "$ROOT/build/apt-tmp"  # some packages' scripts fail where /tmp is a small memory disk
+  mkdir -p "$ROOT/build/apt-tmp"  # some packages' scripts fail if /tmp is a small RAM disk
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >/dev/null
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive TMPDIR="$ROOT/build/apt-tmp" \
     apt-get install -y -q --no-install-recommends "${missing[@]}" >"$ROOT/build/apt.log" 2>&1 ||

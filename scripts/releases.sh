@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/releases.sh [bookworm|trixie…]: README's two commands on a bare machine of each Debian release, with warnings as
-# errors; some 20 minutes each. Logs: build/releases. FRESH_MACHINE names a program that runs its arguments in a clean clone
-# of HEAD on such a machine, with SUITE in its environment.
+# scripts/releases.sh [bookworm|trixie…]: runs README's two commands on a bare machine of each Debian release, with warnings
+# as errors. Takes some 20 minutes each. Logs: build/releases. FRESH_MACHINE names a program that runs its arguments in a
+# clean clone of HEAD on such a machine, with SUITE in its environment.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 fresh_machine=${FRESH_MACHINE:-../shared/tools/fresh_machine.sh}

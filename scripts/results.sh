@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/results.sh: makes the figures and pictures of docs/results.md anew: every flight, every sweep, and nine runs with
-# rendered pictures. Takes about ten minutes on two cores. The sentences there are written by hand: read them afterwards.
+# scripts/results.sh: regenerates the figures and charts of docs/results.md: every flight, every sweep, and nine runs with
+# rendered images. Takes about ten minutes on two cores. The sentences there are written by hand: check them afterwards.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/test.sh [release|asan] [CMAKE-OPTION…]: installs what the tests need, builds, and runs all of them.
+# scripts/test.sh [release|asan] [CMAKE-OPTION…]: installs what the tests need, builds, and runs all tests.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"
 
-# The programs that read our outputs back, in an environment of their own.
+# The programs that read our outputs back get an environment of their own.
 install_consumers() {
   local venv=build/consumers wanted=tests/apps/requirements.txt
   ! cmp -s "$wanted" "$venv/installed.txt" || return 0
@@ -25,10 +25,11 @@ mkdir -p build
 source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 install_consumers
-[ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers see a build with OpenCV alone
-export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # what was compiled in one clone serves the next
+[ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers check a build with OpenCV alone
+export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # shares compiled files between clones
 say "Configuring ($preset)"
-# A newer compiler may know new warnings, which are no fault of whoever runs the tests: .ci/run asks for errors.
+# A newer compiler may have new warnings, which must not stop a user who runs the tests: only .ci/run makes them
+# errors.
 cmake --preset "$preset" -DGEOLOC_WARNINGS_AS_ERRORS=OFF "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 say "Building ($preset)"
 cmake --build "build/$preset"

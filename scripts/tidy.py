@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """scripts/tidy.py BUILD [FILE.cpp…]: clang-tidy on the files given, or on all that BUILD compiles.
 
-Most of its time goes into headers, so the files of a target are read as one, their headers once. Where
-two of them name something alike, so that they cannot be read as one, they are read one by one.
+Most of its time goes into headers, so the files of a target are read as one, and their headers once. Files that
+cannot be read as one, because two of them define the same name, are read one by one.
 """
 import collections
 import concurrent.futures
@@ -41,7 +41,8 @@ def batches(commands):
 
 
 def write_units(folder, commands, groups):
-    """One source a group, which includes its files, in a folder with its own compile_commands.json. Returns the sources."""
+    """Writes one source per group, which includes its files, into a folder with its own compile_commands.json. Returns the
+    sources."""
     folder.mkdir(exist_ok=True)
     entries = [(file, arguments) for file, (_, arguments) in commands.items()]
     units = []
@@ -49,7 +50,7 @@ def write_units(folder, commands, groups):
         unit = folder / f"unit_{number}.cpp" if len(files) > 1 else files[0]
         if len(files) > 1:
             unit.write_text("".join(f'#include "{file}"\n' for file in files))
-            # An alias hides that of another file: no fault where each is read alone.
+            # An alias may hide that of another file, which is no fault if each file is read alone.
             entries.append((unit, [*commands[files[0]][1], "-Wno-shadow"]))
         units.append(unit)
     (folder / "compile_commands.json").write_text(json.dumps(
@@ -59,7 +60,7 @@ def write_units(folder, commands, groups):
 
 
 def tidy(folder, source):
-    """What clang-tidy finds, or an empty text; and whether it could not compile the source."""
+    """The findings of clang-tidy, or an empty text; and whether it failed to compile the source."""
     done = subprocess.run(["clang-tidy", "-p", folder, "--quiet", source], capture_output=True, text=True, check=False)
     found = "" if done.returncode == 0 else done.stdout or done.stderr or f"clang-tidy failed on {source}\n"
     return found, "[clang-diagnostic-error]" in found
@@ -82,7 +83,7 @@ def main(build, *names):
     groups = list(batches({file: commands[file] for file in chosen or commands}))
     folder = build / "_tidy"
     units = write_units(folder, commands, groups)
-    told = set()  # a header's faults are found in every unit that includes it
+    told = set()  # a header's findings come up in every unit that includes it
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         for found in pool.map(check, [folder] * len(units), units, groups):
             for finding in re.split(r"(?m)^(?=/\S+:\d+:\d+: (?:error|warning))", found):

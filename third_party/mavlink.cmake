@@ -1,6 +1,7 @@
-# Target mavlink::mavlink: MAVLink's C headers, generated at configure time from the XML and the generator that one
-# pinned pymavlink wheel carries. Nothing is installed and nothing foreign is committed. All dialects: a receiver can
-# check only those frames whose message it knows, and ArduPilot sends many that are not in common.xml.
+# Target mavlink::mavlink: MAVLink's C headers, generated at configure time from the XML and the generator in a
+# pinned pymavlink wheel. Nothing is installed and no third-party code is committed. All dialects are generated,
+# because a receiver can check only frames whose message it knows, and ArduPilot sends many that are not in
+# common.xml.
 #   offline: -DMAVLINK_INCLUDE_DIR=<folder that holds all/mavlink.h>
 #   offline: -DGEOLOC_PYMAVLINK_WHEEL=<the wheel named below>
 include_guard(GLOBAL)
@@ -11,7 +12,7 @@ set(_version 2.4.50)
 set(_sha256 6c56a34ae4e6e9215f77cd4ad809b804611ad248290783d2d701904bb8db9772)
 set(_root "${CMAKE_BINARY_DIR}/_mavlink")
 
-# Debian keeps pip apart from python3; the pip inside python3-venv does as well.
+# Debian packages pip separately from python3; the pip inside python3-venv works as well.
 function(_geoloc_find_pip result)
   execute_process(COMMAND "${Python3_EXECUTABLE}" -m pip --version RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
   if(status EQUAL 0)
@@ -37,7 +38,7 @@ function(_geoloc_fetch_wheel result)
   _geoloc_find_pip(pip)
   message(STATUS "Fetching pymavlink ${_version} for MAVLink's headers")
   file(WRITE "${_root}/requirements.txt" "pymavlink==${_version} --hash=sha256:${_sha256}\n")
-  # The platform is fixed whatever the host is: only the wheel's Python and XML are used.
+  # The platform is fixed, whatever the host: only the wheel's Python and XML are used.
   execute_process(
     COMMAND ${pip} --disable-pip-version-check download -q --no-deps --only-binary :all:
       --implementation cp --python-version 3.11 --abi cp311

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Rewrites an ONNX export of a YOLO detector (v8, 11, 12 …) so that OpenCV 4.6, Debian 12's, runs it.
+"""Rewrites an ONNX export of a YOLO detector (v8, 11, 12 …) so that OpenCV 4.6 (Debian 12) runs it.
 
-OpenCV 4.6 neither folds constants, nor broadcasts them, nor knows the operators in their form of opset 13 and later:
+OpenCV 4.6 neither folds constants, nor broadcasts them, nor supports the form that operators have from opset 13 on:
     python3 tools/onnx_for_opencv.py yolo11n.onnx yolo11n_opencv.onnx
-An export with dynamic=True leaves its input's size open; --input-size says it. Needs the packages onnx and onnxruntime:
+An export with dynamic=True leaves its input size open; set it with --input-size. Needs the packages onnx and onnxruntime:
 both models are run on the same pictures, and the result is written only if they agree (boxes to 0.01 px, scores to 0.0001).
 """
 
@@ -20,7 +20,7 @@ from onnx.reference import ReferenceEvaluator
 TARGET_OPSET = 12
 BOX_TOLERANCE_PX, SCORE_TOLERANCE = 0.01, 1e-4
 BROADCASTING = {"Add", "Sub", "Mul", "Div"}
-# Operators whose form in opset 12 is that of opset 21, as far as detectors use them.
+# Operators whose form is the same in opset 12 and opset 21, as far as detectors use them.
 UNCHANGED = BROADCASTING | {
     "AveragePool", "BatchNormalization", "Clip", "Concat", "Conv", "ConvTranspose", "Exp", "Flatten", "Gemm",
     "GlobalAveragePool", "LeakyRelu", "MatMul", "MaxPool", "Pad", "Pow", "Relu", "Sigmoid", "Slice", "Sqrt", "Tanh",
@@ -113,7 +113,7 @@ def equal_split(graph: Graph, node: onnx.NodeProto) -> None:
 
 
 def softmax_over_last_axis(graph: Graph, node: onnx.NodeProto) -> list[onnx.NodeProto]:
-    """Before opset 13, Softmax ran over all axes from the given one on: the same only for the last."""
+    """Before opset 13, Softmax ran over all axes from the given one on, which is the same only for the last axis."""
     rank = len(graph.shape(node.input[0]))
     axis = attribute(node, "axis", -1) % rank
     set_attribute(node, "axis", rank - 1)
@@ -184,7 +184,7 @@ def fix_input_size(model: onnx.ModelProto, size: tuple[int, int] | None) -> None
             dimension.dim_value = length
         elif length not in (0, dimension.dim_value):
             raise SystemExit(f"its input is {dimension.dim_value} where {length} is wanted: export it so")
-    for value in (*model.graph.output, *model.graph.value_info):  # they may name the open sizes
+    for value in (*model.graph.output, *model.graph.value_info):  # they may refer to the open sizes
         value.type.tensor_type.ClearField("shape")
 
 
@@ -196,7 +196,7 @@ def convert(model: onnx.ModelProto, size: tuple[int, int] | None = None) -> onnx
     if size or is_open(model):
         fix_input_size(model, size)
     nodes = None
-    while nodes != len(model.graph.node):  # constants tell further shapes, and those are constants again
+    while nodes != len(model.graph.node):  # constants determine more shapes, which are constants again
         nodes = len(model.graph.node)
         graph = Graph(model)
         fold_constants(graph)
@@ -214,7 +214,7 @@ def convert(model: onnx.ModelProto, size: tuple[int, int] | None = None) -> onnx
 
 
 def pictures(shape: list[int]) -> list[np.ndarray]:
-    """Noise, and a smooth one with a bright square: what a network makes of them is far from the same."""
+    """Noise, and a smooth image with a bright square, for which a network's outputs differ widely."""
     generator = np.random.default_rng(0)
     ramp = np.linspace(0, 0.6, shape[3], dtype=np.float32) * np.linspace(0.3, 1, shape[2], dtype=np.float32)[:, None]
     smooth = np.broadcast_to(ramp, shape).copy()

@@ -54,14 +54,15 @@ LeftOut objects_of_known_points(const Session& session, const Survey& survey) {
   std::size_t object = 0;
   for (const Track& track : session.geolocator().tracks()) {
     if (track.status != TrackStatus::kConfirmed) continue;
-    if (score.target_of_object[object++] >= static_cast<int>(survey.others.size())) ids.push_back(track.id);
+    const auto target = score.target_of_object[object++];
+    if (target && *target >= survey.others.size()) ids.push_back(track.id);
   }
   return ids;
 }
 
 int known_points_used(const Session& session) {
   const auto& entries = session.geolocator().known_points();
-  return static_cast<int>(std::count_if(entries.begin(), entries.end(), [](const KnownPoints::Entry& entry) {
+  return static_cast<int>(std::count_if(entries.begin(), entries.end(), [](const KnownPointReport& entry) {
     return entry.status == KnownPointStatus::kMatched;
   }));
 }

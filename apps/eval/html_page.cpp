@@ -145,7 +145,7 @@ std::string table_section(const std::vector<RunResult>& runs) {
   std::string html = tiles(summaries);
   html += heading("Summary");
   html += paragraph(
-      "Means over all runs; 30 targets a run. <b>stock</b>: the simulator's own sensors. <b>gnss</b>: a "
+      "Means over all runs; 30 targets per run. <b>stock</b>: the simulator's own sensors. <b>gnss</b>: a "
       "consumer "
       "receiver's errors, whose constant part no onboard method can see. Relative: with each run's mean "
       "offset removed. "

@@ -99,7 +99,7 @@ Chart consistency_chart(const std::vector<RunResult>& runs) {
   Chart chart;
   chart.title = "Is the stated covariance right? NEES of joint";
   chart.x = {"path", false, {1.0, 2.0, 3.0, 4.0, 5.0, 6.0}};
-  chart.y = {"NEES, a point a run", true, {}};
+  chart.y = {"NEES, one point per run", true, {}};
   chart.right_y = kExpected;
   for (const RunResult& run : runs) {
     if (!(run.contender == Contender{Method::kJoint, 0})) continue;

@@ -8,7 +8,8 @@
 
 namespace geoloc::apps {
 
-/// RMSE of the joint method against that of the paper's on the same run, a point a run, a series a set.
+/// RMSE of the joint method against that of the paper on the same run, one point per run and one series per
+/// set.
 Chart methods_chart(const std::vector<RunResult>& runs);
 
 /// Both tilts of the camera as estimated against as injected, with the stated sigma.

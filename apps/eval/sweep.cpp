@@ -51,7 +51,7 @@ Sweep boresight() {
 Sweep telemetry_rate() {
   Sweep sweep{"telemetry",
               "Telemetry rate",
-              "attitudes and positions a second, Hz",
+              "rate of attitudes and positions, Hz",
               true,
               {2.0, 3.0, 5.0, 10.0, 20.0, 50.0},
               kTelemetryRate_hz};
@@ -101,7 +101,7 @@ Sweep misses() {
 }
 
 Sweep clutter() {
-  Sweep sweep{"clutter", "Clutter", "false boxes a frame", false, {0.0, 0.5, 1.0, 1.5, 2.0, 3.0}, 0.03};
+  Sweep sweep{"clutter", "Clutter", "false boxes per frame", false, {0.0, 0.5, 1.0, 1.5, 2.0, 3.0}, 0.03};
   sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
     settings.detector.clutter_rate = value;
   };

@@ -10,7 +10,8 @@
 #include "geoloc/io/detection/yolo_decode.hpp"
 #include "geoloc/io/detection/yolo_detector.hpp"
 
-// What a frame of 1280 x 720 costs with the default model, where it goes, and what tiles of a large one cost.
+// Time per frame of 1280 x 720 with the default model and where it is spent, and the cost of tiles of a large
+// picture.
 namespace {
 
 using namespace geoloc;
@@ -45,7 +46,7 @@ void detect_without_second_look(benchmark::State& state) {
 }
 BENCHMARK(detect_without_second_look)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// A picture of 3840 x 2160, in so many by so many tiles.
+/// A picture of 3840 x 2160 in a grid of tiles.
 void detect_in_tiles(benchmark::State& state) {
   io::DetectionConfig config;
   config.tile_columns = config.tile_rows = static_cast<int>(state.range(0));
@@ -78,7 +79,7 @@ void forward(benchmark::State& state) {
 }
 BENCHMARK(forward)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// A thousand of 4800 candidates above the threshold: far more than a good network gives.
+/// Decoding with a thousand of 4800 candidates above the threshold: far more than a good network gives.
 void decode(benchmark::State& state) {
   constexpr int kCandidates = 4800;
   std::mt19937 random{1};

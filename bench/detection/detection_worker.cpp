@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// detection_worker MODEL opencv|openvino THREADS PICTURE: for each line on stdin, that many looks at the
-// picture; answers with what each took on the mean [ms] and how many objects there were. For speed.py, which
+// detection_worker MODEL opencv|openvino THREADS PICTURE: for each number on stdin, searches the picture that
+// many times, and answers with the mean time of a search [ms] and the number of objects. For speed.py, which
 // takes turns between several.
 #include <chrono>
 #include <cstdio>

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""export_yolo.py FOLDER: YOLO11n as ultralytics builds it, with weights nobody trained (nothing is downloaded; speed does not
+"""export_yolo.py FOLDER: YOLO11n as ultralytics builds it, with untrained weights (nothing is downloaded; speed does not
 depend on them), at 320 and 640 px: FOLDER/yolo11n_320.onnx, FOLDER/yolo11n_640.onnx. Needs ultralytics (AGPL-3.0), which is
 a tool here and no part of geoloc."""
 

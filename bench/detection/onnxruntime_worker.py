@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""onnxruntime_worker.py MODEL THREADS PICTURE: the same question as detection_worker's, answered with ONNX Runtime's Python
-package and what a Python programmer puts around it: OpenCV's resize, blobFromImage and NMSBoxes, and numpy; the second look,
-where the model names one, likewise."""
+"""onnxruntime_worker.py MODEL THREADS PICTURE: the same task as detection_worker's, done with ONNX Runtime's Python
+package and what a Python programmer would put around it: OpenCV's resize, blobFromImage and NMSBoxes, and numpy; the second
+look, if the model names one, likewise."""
 
 import sys
 import time
@@ -15,11 +15,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools/train"))
 from patches import boxes_of, cut, in_batches, judged, normalised, resized, squares_around  # noqa: E402
 
 CONFIDENCE, OVERLAP = 0.8, 0.5  # geoloc's defaults
-PROPOSED, MOST_PROPOSED = 0.1, 40  # likewise, of models with a second look
+PROPOSED, MOST_PROPOSED = 0.1, 40  # likewise, for models with a second look
 
 
 def suppressed(boxes: np.ndarray, scores: np.ndarray, classes: np.ndarray, confidence: float) -> np.ndarray:
-    """Which of the boxes (centre x, y, width, height) stay, best first."""
+    """Indices of the boxes (centre x, y, width, height) that are kept, best first."""
     corners = np.column_stack((boxes[:, :2] - boxes[:, 2:] / 2, boxes[:, 2:]))
     return np.array(cv2.dnn.NMSBoxesBatched(corners, scores, classes, confidence, OVERLAP), int)
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# bench/detection/run.sh [--yolo FOLDER] [--rounds N]: what a look at a picture costs on two cores: our model and YOLO11n, with both
-# back ends, beside ONNX Runtime's Python package. Prints the table of docs/detection.md and writes it to build/detection. FOLDER
-# has yolo11n_320.onnx and yolo11n_640.onnx of export_yolo.py; without it they are made, which installs torch (3 GB).
+# bench/detection/run.sh [--yolo FOLDER] [--rounds N]: the time to search an image on two cores: our model and YOLO11n, with both
+# back ends, compared with ONNX Runtime's Python package. Prints the table of docs/detection.md and writes it to build/detection.
+# FOLDER has yolo11n_320.onnx and yolo11n_640.onnx of export_yolo.py; without it they are made, which installs torch (3 GB).
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$ROOT"
@@ -38,7 +38,7 @@ fi
 
 say "Building"
 [ -f build/release/build.ninja ] || cmake --preset release >build/detection/configure.log
-cmake -S . -B build/release -DGEOLOC_BUILD_BENCH=ON >>build/detection/configure.log  # finds OpenVINO, if it came just now
+cmake -S . -B build/release -DGEOLOC_BUILD_BENCH=ON >>build/detection/configure.log  # finds OpenVINO, if it was just installed
 cmake --build build/release --target detection_worker >build/detection/build.log
 
 say "Converting for OpenCV"

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a look at a picture of 1280 x 720 costs, letterbox to boxes, taking turns between all contenders so that whatever else
-the machine does meets all of them. Prints a table in Markdown. Started by run.sh."""
+"""The time to search an image of 1280 x 720, from letterbox to boxes, taking turns between all contenders so that
+other load on the machine affects all of them. Prints a table in Markdown. Started by run.sh."""
 
 import argparse
 import random
@@ -13,11 +13,11 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PICTURE = ROOT / "tests/data/detection/targets.jpg"
-PAUSE_S = 0.05  # threads of the one before still spin
+PAUSE_S = 0.05  # threads of the previous one still spin
 
 
 class Contender:
-    """A program that answers a line with the time it took."""
+    """A program that answers each line with the time it took."""
 
     def __init__(self, name: str, command: list):
         self.name = name
@@ -52,7 +52,7 @@ def contenders(worker: Path, networks: list[str], threads: int) -> dict[str, lis
 def measure(groups: dict[str, list[Contender]], rounds: int, looks: int) -> None:
     order = [contender for group in groups.values() for contender in group]
     for contender in order:
-        contender.look(3)  # warm
+        contender.look(3)  # warm-up
     generator = random.Random(0)
     for number in range(rounds):
         generator.shuffle(order)
@@ -64,8 +64,11 @@ def measure(groups: dict[str, list[Contender]], rounds: int, looks: int) -> None
 
 
 def table(groups: dict[str, list[Contender]]) -> str:
-    """Medians, and the median over the rounds of a contender's share of the peer's time in the same round."""
-    lines = ["| network | run by | ms a picture, least | median | pictures a second | times the peer's time | found |", "|---|---|---|---|---|---|---|"]
+    """Medians, and the median over the rounds of a contender's time relative to the peer's in the same round."""
+    lines = [
+        "| network | run by | minimum ms per image | median | images per second | time relative to ONNX Runtime | found |",
+        "|---" * 7 + "|",
+    ]
     for name, group in groups.items():
         for contender in group:
             shares = [own / peer for own, peer in zip(contender.times_ms, group[0].times_ms)]

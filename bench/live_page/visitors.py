@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""bench/live_page/visitors.py [PAGES…]: what open pages cost a live run. Flies a simulated drone once for each number of pages
-(default: 0 1 50), a fifth of which also fetch the video, and prints latency from capture to result and processor time.
-Needs geoloc_app and geoloc_sim in build/release/bin."""
+"""bench/live_page/visitors.py [PAGES…]: the cost of open pages to a live run. Flies a simulated drone once for each
+number of pages (default: 0 1 50), a fifth of which also fetch the video, and prints latency from capture to result and
+processor time. Needs geoloc_app and geoloc_sim in build/release/bin."""
 import os
 import pathlib
 import re
@@ -40,7 +40,7 @@ def fetch_pictures(url, received, is_over):
 
 
 def spent_s():
-    """Processor time of the programs that have ended."""
+    """CPU time of the programs that have ended."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 

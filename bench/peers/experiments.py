@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs of the simulator and of geoloc, several at once, and Stone Soup's results kept for the next time."""
+"""Runs the simulator and geoloc, several at once, and caches Stone Soup's results."""
 
 import hashlib
 import json
@@ -49,7 +49,7 @@ def all_experiments(
 
 @dataclass(frozen=True)
 class Replayed:
-    """What geoloc made of a recording."""
+    """geoloc's results for a recording."""
 
     method: str
     objects_deg: np.ndarray  # (n, 2) longitude, latitude
@@ -82,7 +82,7 @@ def replay(recording: Path, method: str, *options: str | Path) -> Replayed:
 
 
 def record_and_replay(experiment: Experiment) -> tuple[Run, list[Replayed]]:
-    """The fixes that the paper's method makes of a fresh recording, and geoloc's objects by both methods."""
+    """The fixes of a new recording, located by the paper's method, and geoloc's objects by both methods."""
     with tempfile.TemporaryDirectory(prefix="run-", dir=OUT) as name:
         recording, raw = Path(name, "recording"), Path(name, "raw.csv")
         flight = f"{experiment.set_name}_path{experiment.path}"
@@ -95,7 +95,7 @@ def record_and_replay(experiment: Experiment) -> tuple[Run, list[Replayed]]:
 
 
 def track_cached(run: Run, settings: TrackerSettings) -> tuple[np.ndarray, float]:
-    """Stone Soup's objects [m] and CPU time [s]; from build/peers/cache where it has met the very same input."""
+    """Stone Soup's objects [m] and CPU time [s]; from build/peers/cache if it holds the same input."""
     key = hashlib.sha256(Path(generic_tracker.__file__).read_bytes())
     key.update(json.dumps([asdict(settings), version("stonesoup"), [str(time) for time in run.times]]).encode())
     for fixes in run.fixes:
@@ -113,7 +113,7 @@ def track_cached(run: Run, settings: TrackerSettings) -> tuple[np.ndarray, float
 
 
 def for_all(work: Callable[[Experiment], list], experiments: list[Experiment], jobs: int) -> Iterator:
-    """All that `work` returns, from several processes, in the order of the experiments; shows progress."""
+    """The results of `work`, from several processes, in the order of the experiments; shows progress."""
     results = {}
     with ProcessPoolExecutor(jobs) as pool:
         waiting = {pool.submit(work, experiment): experiment for experiment in experiments}

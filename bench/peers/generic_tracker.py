@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stone Soup as a tracker of static objects: global nearest neighbour, a 2-D Kalman filter an object."""
+"""Stone Soup as a tracker of static objects: global nearest neighbour, one 2-D Kalman filter per object."""
 
 import time
 from collections.abc import Iterable
@@ -29,25 +29,25 @@ from stonesoup.updater.kalman import KalmanUpdater
 
 @dataclass(frozen=True)
 class TrackerSettings:
-    noise_m: float  # 1-sigma of a fix, an axis
+    noise_m: float  # per-axis 1-sigma of a fix
     gate: float  # Mahalanobis distance, 1
-    confirm_hits: int  # fixes that make a confirmed object of a tentative one
-    hold_s: float  # a tentative one without a fix for so long goes
-    drift_m: float  # random walk of an object in a second, 1-sigma, an axis
+    confirm_hits: int  # fixes that confirm a tentative object
+    hold_s: float  # a tentative object without a fix for this long is dropped
+    drift_m: float  # random walk of an object in one second, per-axis 1-sigma
 
 
 class Never(Deleter):
-    """Static objects stay where they are; out of sight is not gone."""
+    """Static objects stay where they are: one that is out of sight is not deleted."""
 
     def check_for_deletion(self, track, **kwargs):
         return False
 
 
 class NearbyGNN(GNNWith2DAssignment):
-    """The same associations in less time: tracks whose gate no fix can be in are left as they are."""
+    """The same associations in less time: tracks whose gate no fix can reach are left as they are."""
 
-    noise_m: float = Property(doc="1-sigma of a fix, an axis [m]")
-    drift_m: float = Property(doc="1-sigma of the random walk in a second, an axis [m]")
+    noise_m: float = Property(doc="per-axis 1-sigma of a fix [m]")
+    drift_m: float = Property(doc="per-axis 1-sigma of the random walk in one second [m]")
     gate: float = Property(doc="Mahalanobis distance")
 
     def generate_hypotheses(self, tracks, detections, timestamp, **kwargs):

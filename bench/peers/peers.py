@@ -38,7 +38,7 @@ def require_agreement(name: str, ours: Score, printed: Score) -> None:
 
 
 def compare(tuned: dict[str, TrackerSettings], experiment: Experiment) -> list[dict]:
-    """A row for each method on one recording."""
+    """One row per method for one recording."""
     run, replayed = record_and_replay(experiment)
     results = []
     for geoloc in replayed:
@@ -55,7 +55,7 @@ def compare(tuned: dict[str, TrackerSettings], experiment: Experiment) -> list[d
 def to_markdown(rows: list[dict]) -> str:
     """Means over the runs of RMSE and CPU time, sums of the counts."""
     lines = [
-        "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs | CPU time a run s |",
+        "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs | CPU s per run |",
         "|---" * 9 + "|",
     ]
     for key in dict.fromkeys((row["set_name"], row["method"]) for row in rows):

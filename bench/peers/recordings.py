@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A simulated recording and its raw fixes, in metres east and north of one point, with the true target of each."""
+"""A simulated recording and its raw fixes, in metres east and north of one origin, with the true target of each fix."""
 
 import csv
 import gzip
@@ -20,9 +20,9 @@ FARTHEST_LABEL_PX = 10.0  # 7 sigma of a simulated box's centre; the next target
 class Run:
     origin_deg: np.ndarray  # longitude, latitude
     targets: np.ndarray  # (n, 2) east, north [m]
-    times: list[datetime]  # of each frame
-    fixes: list[np.ndarray]  # of each frame: (k, 2) east, north [m]
-    labels: list[np.ndarray]  # of each frame: (k,) index of the true target, or CLUTTER
+    times: list[datetime]  # per frame
+    fixes: list[np.ndarray]  # per frame: (k, 2) east, north [m]
+    labels: list[np.ndarray]  # per frame: (k,) index of the true target, or CLUTTER
 
 
 def to_metres(lon_lat_deg: np.ndarray, origin_deg: np.ndarray) -> np.ndarray:

@@ -31,5 +31,5 @@ if ! cmp -s "$wanted" "$venv/installed.txt"; then
 fi
 
 say "Running"
-export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1  # a run is one thread; its CPU time is what it says
+export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1  # single-threaded runs, so that CPU time is comparable
 exec nice -n 5 "$venv/bin/python" bench/peers/peers.py "$@"

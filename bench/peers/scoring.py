@@ -41,12 +41,12 @@ def score(objects: np.ndarray, targets: np.ndarray) -> Score:
 
 
 def root_mean_square(errors: np.ndarray) -> float:
-    """Of the lengths of errors (n, 2) [m]; 0 where there are none."""
+    """RMS of the lengths of errors (n, 2) [m]; 0 if there are none."""
     return float(np.sqrt((errors**2).sum() / len(errors))) if len(errors) else 0.0
 
 
 def tuning_cost_m(result: Score) -> float:
-    """GOSPA (order 2, cut at 3 m) a target [m]: a target not found and an extra object each cost half of (3 m)^2."""
+    """GOSPA (order 2, cut-off 3 m) per target [m]: a missed target and an extra object each cost half of (3 m)^2."""
     wrong = result.targets - result.found + result.extra
     total = result.found * result.rmse_m**2 + 0.5 * FARTHEST_MATCH_M**2 * wrong
     return float(np.sqrt(total / result.targets))

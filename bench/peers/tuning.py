@@ -22,11 +22,11 @@ CONFIRM_HITS = (3, 6, 12, 24)
 HOLDS_S = (0.5, 2.0, 8.0)
 DRIFTS_M = (0.0, 0.02)
 
-Candidates = dict[str, list[TrackerSettings]]  # for each set of flights
+Candidates = dict[str, list[TrackerSettings]]  # per set of flights
 
 
 def read_tuned() -> dict[str, TrackerSettings]:
-    """The settings chosen for each set of flights."""
+    """The settings chosen per set of flights."""
     if not TUNED.exists():
         raise RuntimeError(f"{TUNED} is missing: git checkout it, or make it anew with run.sh --tune")
     return {name: TrackerSettings(**values) for name, values in json.loads(TUNED.read_text()).items()}
@@ -42,7 +42,7 @@ def try_candidates(
 
 
 def choose(candidates: Candidates, jobs: int, lines: list[str]) -> dict[str, TrackerSettings]:
-    """The candidate of least mean cost for each set; adds a line to the table for each candidate."""
+    """The candidate with the least mean cost per set; adds one line per candidate to the table."""
     scored = list(for_all(partial(try_candidates, candidates), all_experiments(candidates, [SEED], PATHS), jobs))
     best = {}
     for set_name, settings_of_set in candidates.items():

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/drift.hpp"
+#include "calibration/drift.hpp"
 
 #include <cmath>
 

@@ -17,7 +17,8 @@ double root_mean_square(const std::vector<Eigen::Vector2d>& errors, const Eigen:
   return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
-/// Targets that were not found although a neighbour within reach was: its object took the detections of both.
+/// Counts targets that were not found although a neighbour within reach was: the neighbour's object took the
+/// detections of both.
 int count_merged_pairs(const std::vector<Eigen::Vector2d>& targets, const std::vector<char>& is_found) {
   int pairs = 0;
   for (std::size_t lost = 0; lost < targets.size(); ++lost) {
@@ -46,7 +47,10 @@ Score score_objects(const std::vector<Eigen::Vector2d>& objects,
   }
   AssignmentSolver solver;
   Score score;
-  score.target_of_object = solver.solve(distances, kFarthestMatch_m);
+  for (const std::size_t target : solver.solve(distances, kFarthestMatch_m)) {
+    const bool is_matched = target != AssignmentSolver::kUnassigned;
+    score.target_of_object.push_back(is_matched ? std::optional(target) : std::nullopt);
+  }
   score.targets = static_cast<int>(targets.size());
   score.objects = static_cast<int>(objects.size());
 
@@ -54,10 +58,10 @@ Score score_objects(const std::vector<Eigen::Vector2d>& objects,
   std::vector<char> is_found(targets.size(), 0);
   Eigen::Vector2d offset = Eigen::Vector2d::Zero();
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const int target = score.target_of_object[i];
-    if (target == AssignmentSolver::kUnassigned) continue;
-    is_found[static_cast<std::size_t>(target)] = 1;
-    errors.push_back(objects[i] - targets[static_cast<std::size_t>(target)]);
+    const auto target = score.target_of_object[i];
+    if (!target) continue;
+    is_found[*target] = 1;
+    errors.push_back(objects[i] - targets[*target]);
     offset += errors.back();
   }
   score.found = static_cast<int>(errors.size());
@@ -70,12 +74,12 @@ Score score_objects(const std::vector<Eigen::Vector2d>& objects,
 }
 
 double mean_nees(const std::vector<Gaussian2>& objects, const std::vector<Eigen::Vector2d>& targets,
-                 const std::vector<int>& target_of_object) {
+                 const std::vector<std::optional<std::size_t>>& target_of_object) {
   double sum = 0.0;
   int count = 0;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (target_of_object[i] == AssignmentSolver::kUnassigned) continue;
-    const Eigen::Vector2d error = objects[i].mean - targets[static_cast<std::size_t>(target_of_object[i])];
+    if (!target_of_object[i]) continue;
+    const Eigen::Vector2d error = objects[i].mean - targets[*target_of_object[i]];
     sum += mahalanobis_squared(error, objects[i].covariance);
     ++count;
   }

@@ -5,7 +5,7 @@
 
 namespace geoloc::io {
 
-/// A text file of the source tree, in the program since it was built (geoloc_embed_files()).
+/// A text file of the source tree that was built into the program (geoloc_embed_files()).
 struct EmbeddedFile {
   std::string_view name;
   std::string_view content;

@@ -4,8 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/projection/camera_pose.hpp"
+#include "geoloc/projection/projector.hpp"
+#include "geoloc/state/state_provider.hpp"
+#include "tracking/joint_tracker.hpp"
+#include "tracking/paper_tracker.hpp"
 
 namespace geoloc {
 namespace {
@@ -22,9 +28,10 @@ bool is_usable(const Detection& detection) {
          (detection.sigma_px == 0.0 || is_sigma_px(detection.sigma_px));
 }
 
-std::variant<PaperTracker, JointTracker> make_tracker(const GeolocatorConfig& config) {
-  if (config.method == Method::kPaper) return PaperTracker(config.paper, config.max_detections);
-  return JointTracker(config.joint, config.known_points, config.max_detections);
+std::unique_ptr<Tracker> make_tracker(const GeolocatorConfig& config) {
+  if (config.method == Method::kPaper)
+    return std::make_unique<PaperTracker>(config.paper, config.max_detections);
+  return std::make_unique<JointTracker>(config.joint, config.known_points, config.max_detections);
 }
 
 bool may_be_cut(const Box& box, const CameraIntrinsics& image, double margin_px) {
@@ -56,105 +63,163 @@ std::vector<std::string> GeolocatorConfig::problems() const {
   return found.take();
 }
 
-Geolocator::Geolocator(const GeolocatorConfig& config)
-    : config_(checked(config)),
-      state_(config.state),
-      projector_(config.projector, config.camera.intrinsics),
-      tracker_(make_tracker(config)) {
-  selected_.reserve(static_cast<std::size_t>(config.max_detections));
-  located_.reserve(static_cast<std::size_t>(config.max_detections));
-}
+class Geolocator::Implementation {
+ public:
+  explicit Implementation(const GeolocatorConfig& given)
+      : config(checked(given)),
+        state(config.state),
+        projector(config.projector, config.camera.intrinsics),
+        tracker(make_tracker(config)) {
+    selected_.reserve(config.max_detections);
+    located.reserve(config.max_detections);
+  }
 
-const std::vector<Track>& Geolocator::tracks() const {
-  return std::visit([](const auto& tracker) -> const std::vector<Track>& { return tracker.tracks(); },
-                    tracker_);
-}
+  Expected<VehicleState, NoState> vehicle_at(VehicleTime captured_at) const {
+    return state.at(captured_at - from_seconds(tracker->calibration().latency_s()));
+  }
 
-const TrackCounters& Geolocator::track_counters() const {
-  return std::visit([](const auto& tracker) -> const TrackCounters& { return tracker.counters(); }, tracker_);
-}
+  bool process(const FrameDetections& frame);
 
-std::optional<Calibration> Geolocator::calibration() const {
-  const auto* joint = std::get_if<JointTracker>(&tracker_);
-  if (joint == nullptr) return std::nullopt;
-  return joint->calibration_of_camera();
-}
+  const GeolocatorConfig config;
+  StateProvider state;
+  const Projector projector;
+  const std::unique_ptr<Tracker> tracker;
+  FrameView view;
+  std::vector<LocatedDetection> located;
+  Counters counters;
 
-const std::vector<KnownPoints::Entry>& Geolocator::known_points() const {
-  static const std::vector<KnownPoints::Entry> none;
-  const auto* joint = std::get_if<JointTracker>(&tracker_);
-  return joint == nullptr ? none : joint->known_points().entries();
-}
+ private:
+  Rigid3d calibrated_camera_pose(const VehicleState& vehicle) const;
+  void select(const std::vector<Detection>& detections);
+  void locate();
 
-Duration Geolocator::latency() const {
-  const auto* joint = std::get_if<JointTracker>(&tracker_);
-  return joint == nullptr ? Duration::zero() : from_seconds(joint->calibration().latency_s());
-}
+  std::vector<Detection> selected_;
+};
 
-Rigid3d Geolocator::calibrated_camera_pose(const VehicleState& vehicle) const {
-  Rigid3d pose = enu_from_camera(vehicle, config_.camera.mount, config_.camera_orientation);
-  if (const auto* joint = std::get_if<JointTracker>(&tracker_)) joint->calibration().apply_to(pose);
-  return pose;
-}
-
-std::optional<NoState> Geolocator::missing_state(VehicleTime captured_at) const {
-  const auto state = state_.at(captured_at - latency());
-  if (state) return std::nullopt;
-  return state.error();
-}
-
-bool Geolocator::process(const FrameDetections& frame) {
-  ++counters_.frames;
-  const auto vehicle = state_.at(frame.captured_at - latency());
+bool Geolocator::Implementation::process(const FrameDetections& frame) {
+  ++counters.frames;
+  const auto vehicle = vehicle_at(frame.captured_at);
   if (!vehicle) {
-    ++counters_.frames_unusable;
+    ++counters.frames_unusable;
     return false;
   }
-  ++counters_.frames_located;
-  place_known_points();
-  view_ = {*vehicle, calibrated_camera_pose(*vehicle), frame.captured_at_host};
+  ++counters.frames_located;
+  view = {*vehicle, calibrated_camera_pose(*vehicle), frame.captured_at_host};
   select(frame.detections);
   locate();
-  std::visit([&](auto& tracker) { tracker.update(located_, projector_, view_); }, tracker_);
+  tracker->update({located, projector, view, *state.local_frame()});
   return true;
 }
 
-void Geolocator::place_known_points() {
-  auto* joint = std::get_if<JointTracker>(&tracker_);
-  if (joint != nullptr && !joint->known_points().is_placed()) joint->set_local_frame(*state_.local_frame());
+Rigid3d Geolocator::Implementation::calibrated_camera_pose(const VehicleState& vehicle) const {
+  Rigid3d pose = enu_from_camera(vehicle, config.camera.mount, config.camera_orientation);
+  tracker->calibration().apply_to(pose);
+  return pose;
 }
 
-void Geolocator::select(const std::vector<Detection>& detections) {
+void Geolocator::Implementation::select(const std::vector<Detection>& detections) {
   selected_.clear();
-  const auto most = static_cast<std::size_t>(config_.max_detections);
+  const auto most = static_cast<std::size_t>(config.max_detections);
   for (const Detection& detection : detections) {
     if (!is_usable(detection)) {
-      ++counters_.detections_dropped;
-    } else if (config_.edge_margin_px > 0.0 &&
-               may_be_cut(detection.box, config_.camera.intrinsics, config_.edge_margin_px)) {
-      ++counters_.detections_at_edge;
+      ++counters.detections_dropped;
+    } else if (config.edge_margin_px > 0.0 &&
+               may_be_cut(detection.box, config.camera.intrinsics, config.edge_margin_px)) {
+      ++counters.detections_at_edge;
     } else if (selected_.size() < most) {
       selected_.push_back(detection);
     } else {
-      ++counters_.detections_dropped;
+      ++counters.detections_dropped;
       const auto last = std::max_element(selected_.begin(), selected_.end(), canonical_order);
       if (canonical_order(detection, *last)) *last = detection;
     }
   }
   std::sort(selected_.begin(), selected_.end(), canonical_order);
-  counters_.detections += selected_.size();
+  counters.detections += selected_.size();
 }
 
-void Geolocator::locate() {
-  located_.clear();
+void Geolocator::Implementation::locate() {
+  located.clear();
   for (const Detection& detection : selected_) {
-    const auto fix = projector_.project(detection.box.centre(), view_.enu_from_camera);
+    const auto fix = projector.project(detection.box.centre(), view.enu_from_camera);
     if (fix) {
-      located_.push_back({detection, *fix});
+      located.push_back({detection, *fix});
     } else {
-      ++counters_.no_fix[static_cast<std::size_t>(fix.error())];
+      ++counters.no_fix[static_cast<std::size_t>(fix.error())];
     }
   }
+}
+
+Geolocator::Geolocator(const GeolocatorConfig& config)
+    : implementation_(std::make_unique<Implementation>(config)) {}
+Geolocator::~Geolocator() = default;
+Geolocator::Geolocator(Geolocator&&) noexcept = default;
+Geolocator& Geolocator::operator=(Geolocator&&) noexcept = default;
+
+void Geolocator::add(const AttitudeSample& sample) {
+  implementation_->state.add(sample);
+}
+
+void Geolocator::add(const PositionSample& sample) {
+  implementation_->state.add(sample);
+}
+
+void Geolocator::on_vehicle_reboot() {
+  implementation_->state.restart();
+}
+
+std::optional<NoState> Geolocator::missing_state(VehicleTime captured_at) const {
+  const auto vehicle = implementation_->vehicle_at(captured_at);
+  if (vehicle) return std::nullopt;
+  return vehicle.error();
+}
+
+bool Geolocator::process(const FrameDetections& frame) {
+  return implementation_->process(frame);
+}
+
+const std::vector<Track>& Geolocator::tracks() const {
+  return implementation_->tracker->tracks();
+}
+
+const std::vector<LocatedDetection>& Geolocator::located() const {
+  return implementation_->located;
+}
+
+const FrameView& Geolocator::view() const {
+  return implementation_->view;
+}
+
+std::optional<Calibration> Geolocator::calibration() const {
+  return implementation_->tracker->calibration_of_camera();
+}
+
+const std::vector<KnownPointReport>& Geolocator::known_points() const {
+  return implementation_->tracker->known_points();
+}
+
+const std::optional<LocalFrame>& Geolocator::local_frame() const {
+  return implementation_->state.local_frame();
+}
+
+const GeolocatorConfig& Geolocator::config() const {
+  return implementation_->config;
+}
+
+const StateProvider& Geolocator::state() const {
+  return implementation_->state;
+}
+
+const Projector& Geolocator::projector() const {
+  return implementation_->projector;
+}
+
+const TrackCounters& Geolocator::track_counters() const {
+  return implementation_->tracker->counters();
+}
+
+const Geolocator::Counters& Geolocator::counters() const {
+  return implementation_->counters;
 }
 
 }  // namespace geoloc

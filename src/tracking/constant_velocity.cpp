@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/constant_velocity.hpp"
+#include "tracking/constant_velocity.hpp"
 
 #include <Eigen/LU>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/joint_association.hpp"
+#include "tracking/joint_association.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -37,20 +37,18 @@ Eigen::Matrix2d prior_covariance(const Pairing& pairing) {
 }  // namespace
 
 JointAssociation::JointAssociation(int max_looks, int max_tracks) {
-  const auto looks = static_cast<std::size_t>(max_looks);
-  const auto tracks = static_cast<std::size_t>(max_tracks);
-  pairings_.reserve(kPairingsPerLook * looks);
-  pairings_of_look_.reserve(looks);
-  least_cost_of_look_.reserve(looks);
-  column_of_track_.assign(tracks, kNone);
-  track_of_column_.reserve(tracks);
-  pairings_of_column_.reserve(tracks);
+  pairings_.reserve(kPairingsPerLook * max_looks);
+  pairings_of_look_.reserve(max_looks);
+  least_cost_of_look_.reserve(max_looks);
+  column_of_track_.assign(max_tracks, kNone);
+  track_of_column_.reserve(max_tracks);
+  pairings_of_column_.reserve(max_tracks);
   costs_.resize(max_looks, max_tracks);
   pairing_at_.resize(max_looks, max_tracks);
   assignment_.reserve(max_looks, max_tracks);
   hypotheses_.resize(kMostHypotheses);
-  for (Hypothesis& hypothesis : hypotheses_) hypothesis.pairing_of_look.reserve(looks);
-  matches_.reserve(looks);
+  for (Hypothesis& hypothesis : hypotheses_) hypothesis.pairing_of_look.reserve(max_looks);
+  matches_.reserve(max_looks);
 }
 
 void JointAssociation::begin(std::size_t looks, double gate, double ambiguity) {
@@ -59,7 +57,7 @@ void JointAssociation::begin(std::size_t looks, double gate, double ambiguity) {
   pairings_.clear();
   pairings_of_look_.assign(looks, 0);
   least_cost_of_look_.assign(looks, gate);
-  for (const int track : track_of_column_) column_of_track_[static_cast<std::size_t>(track)] = kNone;
+  for (const std::size_t track : track_of_column_) column_of_track_[track] = kNone;
   track_of_column_.clear();
   pairings_of_column_.clear();
   hypothesis_count_ = 0;
@@ -70,16 +68,16 @@ void JointAssociation::add(const Pairing& pairing) {
   const double cost = mahalanobis_squared(pairing.residual, prior_covariance(pairing)) + pairing.penalty;
   if (!(cost < gate_)) return;
   pairings_.push_back(pairing);
-  double& least_cost = least_cost_of_look_[static_cast<std::size_t>(pairing.look)];
+  double& least_cost = least_cost_of_look_[pairing.look];
   least_cost = std::min(least_cost, cost);
-  ++pairings_of_look_[static_cast<std::size_t>(pairing.look)];
-  int& column = column_of_track_[static_cast<std::size_t>(pairing.track)];
+  ++pairings_of_look_[pairing.look];
+  std::size_t& column = column_of_track_[pairing.track];
   if (column == kNone) {
-    column = static_cast<int>(track_of_column_.size());
+    column = track_of_column_.size();
     track_of_column_.push_back(pairing.track);
     pairings_of_column_.push_back(0);
   }
-  ++pairings_of_column_[static_cast<std::size_t>(column)];
+  ++pairings_of_column_[column];
 }
 
 void JointAssociation::Estimate::add(const Pairing& pairing) {
@@ -111,30 +109,28 @@ bool JointAssociation::is_plain() const {
          std::none_of(pairings_of_column_.begin(), pairings_of_column_.end(), has_choice);
 }
 
-void JointAssociation::assign(const Estimate& estimate, int look_left_alone,
-                              std::vector<int>& pairing_of_look) {
-  auto costs = costs_.topLeftCorner(static_cast<Eigen::Index>(pairings_of_look_.size()),
-                                    static_cast<Eigen::Index>(track_of_column_.size()));
+void JointAssociation::assign(const Estimate& estimate, std::size_t look_left_alone,
+                              std::vector<std::size_t>& pairing_of_look) {
+  auto costs = costs_.topLeftCorner(pairings_of_look_.size(), track_of_column_.size());
   costs.setConstant(gate_);
   for (std::size_t p = 0; p < pairings_.size(); ++p) {
     const Pairing& pairing = pairings_[p];
     if (pairing.look == look_left_alone) continue;
-    const int column = column_of_track_[static_cast<std::size_t>(pairing.track)];
+    const std::size_t column = column_of_track_[pairing.track];
     costs(pairing.look, column) = mahalanobis_squared(pairing.residual - pairing.jacobian * estimate.mean,
                                                       residual_covariance(pairing, estimate.covariance)) +
                                   pairing.penalty;
-    pairing_at_(pairing.look, column) = static_cast<int>(p);
+    pairing_at_(pairing.look, column) = p;
   }
-  const std::vector<int>& column_of_look = assignment_.solve(costs, gate_);
+  const std::vector<std::size_t>& column_of_look = assignment_.solve(costs, gate_);
   pairing_of_look.assign(pairings_of_look_.size(), kNone);
   for (std::size_t i = 0; i < pairing_of_look.size(); ++i) {
-    const int column = column_of_look[i];
-    if (column != AssignmentSolver::kUnassigned)
-      pairing_of_look[i] = pairing_at_(static_cast<Eigen::Index>(i), column);
+    const std::size_t column = column_of_look[i];
+    if (column != AssignmentSolver::kUnassigned) pairing_of_look[i] = pairing_at_(i, column);
   }
 }
 
-void JointAssociation::explain(const Pairing* start, int look_left_alone) {
+void JointAssociation::explain(const Pairing* start, std::size_t look_left_alone) {
   if (hypothesis_count_ == kMostHypotheses) return;
   Hypothesis& hypothesis = hypotheses_[hypothesis_count_++];
   Estimate estimate;
@@ -142,8 +138,8 @@ void JointAssociation::explain(const Pairing* start, int look_left_alone) {
   for (int round = 0; round < kRounds; ++round) {
     assign(estimate, look_left_alone, hypothesis.pairing_of_look);
     estimate = Estimate{};
-    for (const int pairing : hypothesis.pairing_of_look) {
-      if (pairing != kNone) estimate.add(pairings_[static_cast<std::size_t>(pairing)]);
+    for (const std::size_t pairing : hypothesis.pairing_of_look) {
+      if (pairing != kNone) estimate.add(pairings_[pairing]);
     }
   }
   const auto alone = std::count(hypothesis.pairing_of_look.begin(), hypothesis.pairing_of_look.end(), kNone);
@@ -152,23 +148,25 @@ void JointAssociation::explain(const Pairing* start, int look_left_alone) {
 }
 
 /// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.
-void JointAssociation::try_other_explanations(bool from_every_pairing) {
+void JointAssociation::try_other_explanations(Starts starts) {
   for (std::size_t p = 0; p < pairings_.size(); ++p) {
-    const auto look = static_cast<std::size_t>(pairings_[p].look);
+    const std::size_t look = pairings_[p].look;
     const auto end = hypotheses_.begin() + static_cast<std::ptrdiff_t>(hypothesis_count_);
     const bool is_held = std::any_of(hypotheses_.begin(), end, [&](const Hypothesis& hypothesis) {
-      return hypothesis.pairing_of_look[look] == static_cast<int>(p);
+      return hypothesis.pairing_of_look[look] == p;
     });
-    if (from_every_pairing || (pairings_of_look_[look] > 1 && !is_held)) explain(&pairings_[p], kNone);
+    if (starts == Starts::kEveryPairing || (pairings_of_look_[look] > 1 && !is_held))
+      explain(&pairings_[p], kNone);
   }
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
-    if (is_doubtful(look)) explain(nullptr, static_cast<int>(look));
+    if (is_doubtful(look)) explain(nullptr, look);
   }
 }
 
-int JointAssociation::track_of(const Hypothesis& hypothesis, std::size_t look) const {
-  const int pairing = hypothesis.pairing_of_look[look];
-  return pairing == kNone ? kNone : pairings_[static_cast<std::size_t>(pairing)].track;
+std::optional<std::size_t> JointAssociation::track_of(const Hypothesis& hypothesis, std::size_t look) const {
+  const std::size_t pairing = hypothesis.pairing_of_look[look];
+  if (pairing == kNone) return std::nullopt;
+  return pairings_[pairing].track;
 }
 
 void JointAssociation::report_best() {
@@ -183,8 +181,8 @@ void JointAssociation::report_best() {
       match.is_ambiguous =
           match.is_ambiguous || (other.cost < best.cost + ambiguity_ && track_of(other, i) != match.track);
     }
-    if (match.track == kNone) continue;
-    const Pairing& pairing = pairings_[static_cast<std::size_t>(best.pairing_of_look[i])];
+    if (!match.track) continue;
+    const Pairing& pairing = pairings_[best.pairing_of_look[i]];
     match.innovation = pairing.residual - pairing.jacobian * best.estimate.mean;
     match.innovation_covariance = residual_covariance(pairing, best.estimate.covariance);
   }
@@ -197,12 +195,11 @@ JointAssociation::Match JointAssociation::match_of(const Pairing& pairing) {
 const std::vector<JointAssociation::Match>& JointAssociation::solve() {
   matches_.assign(pairings_of_look_.size(), Match{});
   if (is_plain()) {
-    for (const Pairing& pairing : pairings_)
-      matches_[static_cast<std::size_t>(pairing.look)] = match_of(pairing);
+    for (const Pairing& pairing : pairings_) matches_[pairing.look] = match_of(pairing);
     return matches_;
   }
   explain(nullptr, kNone);
-  try_other_explanations(false);
+  try_other_explanations(Starts::kAmbiguousLooks);
   report_best();
   return matches_;
 }
@@ -210,7 +207,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
 const std::vector<JointAssociation::Match>& JointAssociation::solve_thoroughly() {
   matches_.assign(pairings_of_look_.size(), Match{});
   explain(nullptr, kNone);
-  try_other_explanations(true);
+  try_other_explanations(Starts::kEveryPairing);
   report_best();
   return matches_;
 }

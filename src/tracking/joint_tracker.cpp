@@ -1,37 +1,61 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/joint_tracker.hpp"
+#include "tracking/joint_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "tracking/identity.hpp"
+#include "tracking/visibility.hpp"
 
-// One frame, the solution, and the known points. joint_tracker_looks.cpp, joint_tracker_association.cpp,
-// joint_tracker_identity.cpp and joint_tracker_life_cycle.cpp hold what their names say.
 namespace geoloc {
 namespace {
 
 using Index = CalibrationIndex;
 
-/// Frames at the start of a flight after each of which the head is solved: it learns most then.
-constexpr int kEagerFrames = 100;
-/// The wandering is learnt with each solution until it has settled, then now and then: it costs as much as a
-/// solution.
-constexpr int kSolutionsToSettle = 150, kSolutionsPerLessonLater = 5;
 /// Bounds of what the reported accuracy is believed to be wrong by.
 constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
-/// What the assumed detection probability counts for against observed ones.
-constexpr double kPriorOpportunities = 20.0;
-
-/// By which the variance of a mean over many frames is larger than if their noise was not shared.
-double frames_that_share(double time_constant_s, double pause_s) {
-  return std::max(1.0, 2.0 * time_constant_s / pause_s);
-}
+/// Bounds of what a vehicle's reported accuracy is believed to be [m].
+constexpr double kLeastAccuracy_m = 0.02, kMostAccuracy_m = 100.0;
+/// A known point that is nearer to the image's edge is not covered; share of the image's height.
+constexpr double kCoverMargin = 0.1;
 
 JointTrackerConfig checked(const JointTrackerConfig& config) {
   throw_if_any(config.problems());
   return config;
+}
+
+PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
+  return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
+}
+
+/// A younger track that may be the same object has this frame's look: begun when the vehicle came back with
+/// another drift, it would outlive the older one, and all that this one knows. nullptr: there is none.
+const RestingObject* seen_as(const RestingObject& track, const TrackTable& tracks, double merge_radius_m) {
+  if (!track.is_confirmed()) return nullptr;
+  for (const RestingObject& other : tracks) {
+    const bool is_young = other.track.id > track.track.id && other.track.hits <= kHitsToCompare;
+    if (is_young && other.is_seen && are_not_told_apart(track, other, merge_radius_m)) return &other;
+  }
+  return nullptr;
+}
+
+/// The object where this frame would show it.
+ShownObject shown_object(const RestingObject& track, const std::vector<Look>& looks,
+                         const FrameShift& shift) {
+  ShownObject object;
+  object.position_in_enu = shift.shown(track.track.position_in_enu.mean);
+  object.sigma_m = std::sqrt(track.own_covariance.trace() + track.gain.squaredNorm());
+  object.size_m = track.size_m;
+  // Its look's is as good and known already.
+  if (track.look) object.ground_per_pixel_m = looks[*track.look].ground_per_pixel_m;
+  return object;
+}
+
+void state_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
+  for (RestingObject& track : tracks)
+    track.track.position_in_enu.covariance = solution.covariance(*track.landmark);
 }
 
 }  // namespace
@@ -39,51 +63,23 @@ JointTrackerConfig checked(const JointTrackerConfig& config) {
 JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points,
                            int max_detections)
     : config_(checked(config)),
-      drift_(config.drift),
       solver_(config.prior, config.drift.max_nodes),
+      errors_(accuracy_of(config), config.drift, solver_),
+      noise_clock_(config.fast_time_constant_s, config.attitude_time_constant_s),
+      schedule_(config.solve_period_s),
+      look_maker_(config_, max_detections),
+      look_matcher_(config_, max_detections),
+      detection_rate_(config.detection_probability),
       known_points_(std::move(known_points), config.max_tracks),
-      moving_(config, max_detections),
-      reported_accuracy_m_(config.horizontal_accuracy_m),
-      association_(max_detections, config.max_tracks),
-      expected_hits_(config.detection_probability * kPriorOpportunities),
-      opportunities_(kPriorOpportunities) {
-  const auto tracks = static_cast<std::size_t>(config.max_tracks);
-  const auto looks = static_cast<std::size_t>(max_detections);
-  tracks_.reserve(tracks);
-  estimates_.reserve(tracks);
-  landmarks_.reserve(tracks);
-  free_landmarks_.reserve(tracks);
-  all_landmarks_.reserve(tracks);
-  known_candidates_.reserve(tracks);
-  look_of_track_.reserve(tracks);
-  reach_of_track_.reserve(tracks);
-  is_in_doubt_.reserve(tracks);
-  detection_probability_of_track_.reserve(tracks);
-  looks_.reserve(looks);
-  matches_.reserve(looks);
-  if (!config.moving.classes.empty()) {
-    moving_looks_.reserve(looks);
-    all_tracks_.reserve(2 * tracks);
-  }
-  median_scratch_.reserve(looks);
-  calibration_.mean = solver_.prior_mean();
-  calibration_.covariance = solver_.prior_sigma(sigma_offset_m()).array().square().matrix().asDiagonal();
-  find_roots();
+      tracks_(config.max_tracks),
+      moving_(config_, max_detections) {
+  published_.reserve((config.moving.classes.empty() ? 1 : 2) * config.max_tracks);
+  landmarks_.reserve(config.max_tracks);
+  known_candidates_.reserve(config.max_tracks);
 }
 
-/// Of the wandering, an axis; the reported accuracy is radial.
-double JointTracker::reported_sigma_m() const {
-  return std::sqrt(0.5 * (1.0 - config_.constant_share)) * reported_accuracy_m_;
-}
-
-/// A receiver that wanders less than it reports is taken to be as much better in what no look can show.
-double JointTracker::sigma_offset_m() const {
-  const double sigma_m = std::sqrt(0.5 * config_.constant_share) * reported_accuracy_m_;
-  return std::max(config_.least_offset_sigma_m, drift_.position_scale() * sigma_m);
-}
-
-Calibration JointTracker::calibration_of_camera() const {
-  Calibration camera = calibration_;
+std::optional<Calibration> JointTracker::calibration_of_camera() const {
+  Calibration camera = errors_.calibration;
   const double attitude = config_.sigma_attitude_bias_deg * kRadPerDeg;
   camera.covariance.diagonal().segment<3>(Index::kBoresight).array() += attitude * attitude;
   camera.covariance(Index::kLatency, Index::kLatency) +=
@@ -91,133 +87,223 @@ Calibration JointTracker::calibration_of_camera() const {
   return camera;
 }
 
-void JointTracker::update(const std::vector<LocatedDetection>& detections, const Projector& projector,
-                          const FrameView& view) {
-  begin_frame(view);
-  make_looks(detections, projector, view);
-  associate();
-  weigh_missed(projector, view);
-  cover_known_points(projector, view);
-  absorb_matched(view.captured_at_host);
-  start_tentative(view.captured_at_host);
-  note_same_frame_evidence();
+void JointTracker::update(const LocatedFrame& located) {
+  const JointFrame frame = begin_frame(located);
+  const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
+  const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, frame.time(), tracks_);
+  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift};
+
+  weigh_missed(looks.at_rest, frame, shift);
+  cover_known_points(located, shift);
+  absorb_matched(looks.at_rest, explanation, frame);
+  begin_tentative(looks.at_rest, explanation, frame);
+  tell_neighbours_apart(looks.at_rest, explanation, errors_, config_.merge_radius_m, tracks_);
   remove_improbable();
-  track_moving(projector, view);
-  solve_if_due(view.vehicle.time);
-  list_all_tracks();
+  moving_.update(
+      looks.moving,
+      {frame, shift.correction(), errors_.calibration.covariance.block<2, 2>(Index::kOffset, Index::kOffset),
+       detection_rate_.probability()},
+      book_);
+  if (schedule_.is_due(frame.time())) refine(frame, noise);
+  publish();
 }
 
-void JointTracker::begin_frame(const FrameView& view) {
-  if (view.vehicle.sigma_horizontal_m)
-    reported_accuracy_m_ = std::clamp(*view.vehicle.sigma_horizontal_m, 0.02, 100.0);
-  if (frames_++ > 0) {
-    const double pause_s = seconds(view.vehicle.time - now_);
-    if (pause_s > 0.0) {
-      noise_correlation_ = frames_that_share(config_.fast_time_constant_s, pause_s);
-      attitude_correlation_ = frames_that_share(config_.attitude_time_constant_s, pause_s);
+JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
+  const VehicleState& vehicle = located.view.vehicle;
+  if (vehicle.sigma_horizontal_m)
+    errors_.accuracy.radial_m = std::clamp(*vehicle.sigma_horizontal_m, kLeastAccuracy_m, kMostAccuracy_m);
+  schedule_.count_frame();
+  tracks_.clear_evidence();
+  DriftTimeline& drift = errors_.drift;
+  const NodeSpan span = drift.cover(vehicle.time, errors_.accuracy.wandering_sigma_m());
+  while (drift.size() > config_.drift.max_nodes) {
+    for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
+    drift.freeze_oldest();
+  }
+  return {located.projector, located.view, span, drift.at(span), noise_clock_.tick(vehicle.time)};
+}
+
+void JointTracker::weigh_missed(const std::vector<Look>& looks, const JointFrame& frame,
+                                const FrameShift& shift) {
+  for (RestingObject& track : tracks_) {
+    if (track.is_in_doubt) {
+      compare_soon(track);
+      continue;
+    }
+    if (track.is_seen && !track.is_confirmed()) continue;
+    const double probability = visibility(shown_object(track, looks, shift), frame.projector, frame.view,
+                                          config_.sigma_px, config_.smallest_object_px) *
+                               detection_rate_.probability();
+    if (probability <= 0.0) continue;
+    track.detection_probability = probability;
+    if (!track.is_seen) {
+      if (const RestingObject* const other = seen_as(track, tracks_, config_.merge_radius_m)) {
+        compare_soon(*other);
+        continue;
+      }
+      track.existence.miss(probability);
+    }
+    if (track.is_confirmed())
+      detection_rate_.count(track.is_seen ? DetectionRate::Outcome::kFound : DetectionRate::Outcome::kMissed);
+  }
+}
+
+/// A track that may be another's twin does not wait for the next solution, once it is known well enough.
+void JointTracker::compare_soon(const RestingObject& track) {
+  if (track.track.hits >= kHitsToCompare && !track.is_compared) schedule_.request();
+}
+
+void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {
+  const Projector& projector = frame.projector;
+  const double margin_px = kCoverMargin * projector.camera().intrinsics().height_px;
+  known_points_.cover(frame.local_frame, [&](const Eigen::Vector2d& position_in_enu) {
+    return projector.sees(shift.shown(position_in_enu), frame.view.enu_from_camera, margin_px);
+  });
+}
+
+void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
+                                  const JointFrame& frame) {
+  const double found = detection_rate_.probability();
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const JointAssociation::Match& match = explanation.match_of_look[i];
+    if (!match.is_certain()) continue;
+    RestingObject& track = tracks_[*match.track];
+    track.existence.hit(found, density(match.innovation, match.innovation_covariance),
+                        looks[i].clutter_density);
+    record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
+    add_to_sums(track, looks[i], errors_);
+    confirm_if_probable(track, config_.confirm_probability);
+  }
+}
+
+void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
+                                   const JointFrame& frame) {
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    if (explanation.match_of_look[i].track) continue;
+    if (tracks_.is_full()) {
+      ++book_.counters.refused;
+      continue;
+    }
+    RestingObject& track = tracks_.append();
+    begin_object(track, config_.birth_probability, frame.view.captured_at_host, book_);
+    record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
+    begin_sums(track, looks[i], errors_);
+    track.look = i;
+  }
+}
+
+void JointTracker::remove_improbable() {
+  for (std::size_t k = tracks_.size(); k-- > 0;) {
+    Track& track = tracks_[k].track;
+    track.existence = tracks_[k].existence.probability();
+    if (*track.existence >= config_.delete_probability) continue;
+    known_points_.forget(track.id);
+    tracks_.remove(k);
+    ++book_.counters.removed;
+  }
+}
+
+void JointTracker::refine(const JointFrame& frame, const FrameNoise& noise) {
+  schedule_.begin_solution(frame.time());
+  const auto solution = solve(frame);
+  if (!solution) return;
+  learn_wandering(*solution);
+  merge_compatible(*solution, frame, noise);
+  state_covariances(*solution, tracks_);
+  if (!match_known_points(*solution, noise)) return;
+  if (const auto with_known_points = solve(frame)) state_covariances(*with_known_points, tracks_);
+}
+
+std::optional<ArrowheadSolver::Solution> JointTracker::solve(const JointFrame& frame) {
+  landmarks_.clear();
+  for (const RestingObject& track : tracks_) landmarks_.push_back(track.landmark);
+  const auto solution = solver_.solve(landmarks_, errors_.offset_sigma_m(), errors_.drift);
+  if (!solution) return std::nullopt;
+  errors_.take(*solution);
+  for (RestingObject& track : tracks_) refresh(track, errors_, frame.span);
+  return solution;
+}
+
+void JointTracker::learn_wandering(const Solution& solution) {
+  if (!schedule_.next_solution_teaches_wandering()) return;
+  const auto wandering = solution.observed_wandering(errors_.drift);
+  if (wandering) errors_.drift.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
+}
+
+void JointTracker::merge_compatible(const Solution& solution, const JointFrame& frame,
+                                    const FrameNoise& noise) {
+  for (std::size_t a = 0; a < tracks_.size(); ++a) {
+    for (std::size_t b = a + 1; b < tracks_.size();) {
+      if (may_be_one(tracks_[a], tracks_[b], solution, noise, config_)) {
+        merge(a, b);
+        refresh(tracks_[a], errors_, frame.span);
+      } else {
+        ++b;
+      }
     }
   }
-  now_ = view.vehicle.time;
-  span_ = drift_.cover(view.vehicle.time, reported_sigma_m());
-  while (drift_.size() > config_.drift.max_nodes) {
-    for (const Estimate& estimate : estimates_) landmarks_[estimate.landmark].freeze(drift_.begin(), drift_);
-    drift_.freeze_oldest();
-  }
-  drift_now_ = (1.0 - span_.weight_of_second) * drift_.node(span_.first).mean +
-               span_.weight_of_second * drift_.node(span_.first + 1).mean;
+  for (RestingObject& track : tracks_) track.is_compared = track.track.hits >= kHitsToCompare;
 }
 
-void JointTracker::track_moving(const Projector& projector, const FrameView& view) {
-  if (config_.moving.classes.empty()) return;
-  const Eigen::Matrix2d offset_covariance =
-      calibration_.covariance.block<2, 2>(Index::kOffset, Index::kOffset);
-  moving_.update(moving_looks_,
-                 {projector, view, calibration_.offset_m() + drift_now_.head<2>() - shift_, offset_covariance,
-                  counted_detection_probability()},
-                 book_);
-}
-
-void JointTracker::list_all_tracks() {
-  if (config_.moving.classes.empty()) return;
-  all_tracks_.resize(tracks_.size() + moving_.tracks().size());
-  std::merge(tracks_.begin(), tracks_.end(), moving_.tracks().begin(), moving_.tracks().end(),
-             all_tracks_.begin(), [](const Track& a, const Track& b) { return a.id < b.id; });
-}
-
-void JointTracker::solve_if_due(VehicleTime now) {
-  const bool is_due = is_comparison_due_ || frames_ <= kEagerFrames || !solved_at_ || now < *solved_at_ ||
-                      seconds(now - *solved_at_) >= config_.solve_period_s;
-  if (!is_due) return;
-  solved_at_ = now;
-  is_comparison_due_ = false;
-  if (!solve()) return;
-  learn_wandering();
-  merge_compatible();
-  state_covariances();
-  if (match_known_points() && solve()) state_covariances();
-}
-
-bool JointTracker::solve() {
-  all_landmarks_.clear();
-  for (const Estimate& estimate : estimates_) all_landmarks_.push_back(&landmarks_[estimate.landmark]);
-  if (!solver_.solve(all_landmarks_, sigma_offset_m(), drift_, calibration_)) return false;
-  find_roots();
-  for (std::size_t k = 0; k < tracks_.size(); ++k) refresh(k);
-  return true;
-}
-
-void JointTracker::state_covariances() {
-  for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    tracks_[k].position_in_enu.covariance = solver_.covariance(landmarks_[estimates_[k].landmark], drift_);
-  }
-}
-
-void JointTracker::cover_known_points(const Projector& projector, const FrameView& view) {
-  const double margin_px = 0.1 * projector.camera().intrinsics().height_px;
-  for (std::size_t i = 0; i < known_points_.entries().size(); ++i) {
-    const Eigen::Vector2d shown = shown_in_frame(known_points_.entries()[i].position_in_enu);
-    if (projector.sees(shown, view.enu_from_camera, margin_px)) known_points_.cover(i);
-  }
+/// All that is known of `gone` goes to `kept`.
+void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
+  RestingObject& kept = tracks_[kept_row];
+  const RestingObject& gone = tracks_[gone_row];
+  kept.landmark->merge(*gone.landmark, errors_.drift);
+  kept.pixel_information += gone.pixel_information;
+  kept.is_known = kept.is_known || gone.is_known;
+  merge_life(kept, gone);
+  known_points_.rename(gone.track.id, kept.track.id);
+  for (RestingObject& track : tracks_) track.neighbours.rename(gone.track.id, kept.track.id);
+  merge_records(kept.track, gone.track);
+  tracks_.remove(gone_row);
+  ++book_.counters.merged;
 }
 
 /// A surveyed object's coordinates are information on its position, and through the head on all others'. True
-/// where there is some that the last solution did not have.
-bool JointTracker::match_known_points() {
-  if (known_points_.entries().empty()) return false;
+/// where there is some that the solution does not have.
+bool JointTracker::match_known_points(const Solution& solution, const FrameNoise& noise) {
+  if (known_points_.is_empty()) return false;
   known_candidates_.clear();
-  double variance = 0.0, own_variance = 0.0;  // an axis, means over the candidates
-  std::size_t before = 0;
-  for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    const Track& track = tracks_[k];
+  double variance = 0.0, own_variance = 0.0;  // per axis, sums over the candidates
+  const RestingObject* before = nullptr;
+  for (const RestingObject& object : tracks_) {
+    const Track& track = object.track;
     if (track.hits < kHitsToCompare) continue;
     variance += 0.5 * track.position_in_enu.covariance.trace();
-    own_variance += known_candidates_.empty() ? 0.5 * estimates_[k].own_covariance.trace()
-                                              : 0.25 * covariance_of_difference(before, k).trace();
+    own_variance += before == nullptr
+                        ? 0.5 * object.own_covariance.trace()
+                        : 0.25 * covariance_of_difference(*before, object, solution, noise).trace();
     known_candidates_.push_back(
-        {track.id, track.status == TrackStatus::kConfirmed, track.class_id(), track.position_in_enu.mean});
-    before = k;
+        {track.id, object.is_confirmed(), track.class_id(), track.position_in_enu.mean});
+    before = &object;
   }
   if (known_candidates_.empty()) return false;
   const auto count = static_cast<double>(known_candidates_.size());
   const double shared_variance = std::max(0.0, (variance - own_variance) / count);
-  if (!known_points_.match(known_candidates_, std::sqrt(shared_variance), std::sqrt(own_variance / count),
-                           config_.gate, config_.ambiguity))
-    return false;
-  for (std::size_t k = 0; k < tracks_.size(); ++k) {
-    const KnownPoints::Entry* entry = known_points_.of_track(tracks_[k].id);
-    if (entry == nullptr || estimates_[k].is_known) continue;
-    landmarks_[estimates_[k].landmark].add_prior(
-        entry->position_in_enu, Eigen::Matrix2d::Identity() / (entry->sigma_m * entry->sigma_m));
-    estimates_[k].is_known = true;
+  const KnownPointMatcher::Sigma sigma{std::sqrt(shared_variance), std::sqrt(own_variance / count)};
+  if (!known_points_.match(known_candidates_, sigma, config_.gate, config_.ambiguity)) return false;
+  for (RestingObject& object : tracks_) {
+    const auto survey = known_points_.survey_of(object.track.id);
+    if (!survey || object.is_known) continue;
+    object.landmark->add_prior(survey->position_in_enu,
+                               Eigen::Matrix2d::Identity() / (survey->sigma_m * survey->sigma_m));
+    object.is_known = true;
   }
   return true;
 }
 
-void JointTracker::learn_wandering() {
-  const int pause = solutions_ < kSolutionsToSettle ? 1 : kSolutionsPerLessonLater;
-  if (++solutions_ % pause != 0) return;
-  const auto wandering = solver_.observed_wandering(drift_);
-  if (wandering) drift_.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
+void JointTracker::publish() {
+  published_.clear();
+  const auto& moving = moving_.objects();
+  auto next_moving = moving.begin();
+  for (const RestingObject& object : tracks_) {
+    for (; next_moving != moving.end() && next_moving->track.id < object.track.id; ++next_moving)
+      published_.push_back(next_moving->track);
+    published_.push_back(object.track);
+  }
+  for (; next_moving != moving.end(); ++next_moving) published_.push_back(next_moving->track);
 }
 
 }  // namespace geoloc

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/paper_tracker.hpp"
+#include "tracking/paper_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -43,21 +43,20 @@ PaperTracker::PaperTracker(const PaperTrackerConfig& config, int max_detections)
       measurement_covariance_(isotropic(config.measurement_sigma_m)),
       process_covariance_(isotropic(config.process_sigma_m)) {
   throw_if_any(config.problems());
-  const auto track_capacity = static_cast<std::size_t>(config.max_tracks);
-  tracks_.reserve(track_capacity);
-  candidates_.reserve(track_capacity);
-  track_is_matched_.reserve(track_capacity);
-  track_of_detection_.reserve(static_cast<std::size_t>(max_detections));
+  tracks_.reserve(config.max_tracks);
+  candidates_.reserve(config.max_tracks);
+  track_is_matched_.reserve(config.max_tracks);
+  track_of_detection_.reserve(max_detections);
   costs_.resize(max_detections, config.max_tracks);
   solver_.reserve(max_detections, config.max_tracks);
 }
 
-void PaperTracker::update(const std::vector<LocatedDetection>& detections, const Projector& projector,
-                          const FrameView& view) {
-  associate(detections);
-  update_matched(detections, view.captured_at_host);
-  penalise_missed(projector, view.enu_from_camera);
-  start_tentative(detections, view.captured_at_host);
+void PaperTracker::update(const LocatedFrame& frame) {
+  const HostTime captured_at = frame.view.captured_at_host;
+  associate(frame.detections);
+  update_matched(frame.detections, captured_at);
+  penalise_missed(frame.projector, frame.view.enu_from_camera);
+  start_tentative(frame.detections, captured_at);
   remove_unreliable();
   merge_near_confirmed();
 }
@@ -68,16 +67,16 @@ Eigen::Matrix2d PaperTracker::measurement_covariance(const LocatedDetection& loc
 }
 
 void PaperTracker::associate(const std::vector<LocatedDetection>& detections) {
-  const auto rows = static_cast<Eigen::Index>(detections.size());
+  const std::size_t rows = detections.size();
   candidates_.clear();
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     const Gaussian2& track = tracks_[k].position_in_enu;
     const Eigen::Matrix2d information =
         (track.covariance + measurement_covariance_).inverse();  // S^-1 of eq. 11
-    const auto column = static_cast<Eigen::Index>(candidates_.size());
+    const std::size_t column = candidates_.size();
     bool within_gate = false;
-    for (Eigen::Index i = 0; i < rows; ++i) {
-      const LocatedDetection& located = detections[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < rows; ++i) {
+      const LocatedDetection& located = detections[i];
       const Eigen::Vector2d residual = located.fix.position_in_enu - track.mean;
       const Eigen::Matrix2d& its_information =
           located.detection.sigma_px == 0.0
@@ -89,22 +88,21 @@ void PaperTracker::associate(const std::vector<LocatedDetection>& detections) {
     if (within_gate) candidates_.push_back(k);  // otherwise the next track takes this column
   }
 
-  const auto& column_of_row =
-      solver_.solve(costs_.topLeftCorner(rows, static_cast<Eigen::Index>(candidates_.size())), config_.gate);
+  const auto& column_of_row = solver_.solve(costs_.topLeftCorner(rows, candidates_.size()), config_.gate);
   track_is_matched_.assign(tracks_.size(), 0);
-  track_of_detection_.assign(detections.size(), AssignmentSolver::kUnassigned);
+  track_of_detection_.assign(detections.size(), std::nullopt);
   for (std::size_t i = 0; i < detections.size(); ++i) {
     if (column_of_row[i] == AssignmentSolver::kUnassigned) continue;
-    const std::size_t track = candidates_[static_cast<std::size_t>(column_of_row[i])];
-    track_of_detection_[i] = static_cast<int>(track);
+    const std::size_t track = candidates_[column_of_row[i]];
+    track_of_detection_[i] = track;
     track_is_matched_[track] = 1;
   }
 }
 
 void PaperTracker::update_matched(const std::vector<LocatedDetection>& detections, HostTime captured_at) {
   for (std::size_t i = 0; i < detections.size(); ++i) {
-    if (track_of_detection_[i] == AssignmentSolver::kUnassigned) continue;
-    Track& track = tracks_[static_cast<std::size_t>(track_of_detection_[i])];
+    if (!track_of_detection_[i]) continue;
+    Track& track = tracks_[*track_of_detection_[i]];
     track.position_in_enu = kalman_update(track.position_in_enu, detections[i].fix.position_in_enu,
                                           measurement_covariance(detections[i]));
     track.position_in_enu.covariance += process_covariance_;
@@ -125,7 +123,7 @@ void PaperTracker::penalise_missed(const Projector& projector, const Rigid3d& en
 
 void PaperTracker::start_tentative(const std::vector<LocatedDetection>& detections, HostTime captured_at) {
   for (std::size_t i = 0; i < detections.size(); ++i) {
-    if (track_of_detection_[i] != AssignmentSolver::kUnassigned) continue;
+    if (track_of_detection_[i]) continue;
     if (tracks_.size() >= static_cast<std::size_t>(config_.max_tracks)) {
       ++counters_.refused;
       continue;

@@ -27,7 +27,7 @@ class Router:
 
     def __init__(self, vehicle_port, app_port, station_ports):
         self._selector = selectors.DefaultSelector()
-        self._peers = {self._bind(vehicle_port): None}  # a vehicle is where it sends from
+        self._peers = {self._bind(vehicle_port): None}  # a vehicle's address is the one it sends from
         for port in (app_port, *station_ports):
             self._peers[self._bind(0)] = ("127.0.0.1", port)
         self._ends = threading.Event()
@@ -46,7 +46,7 @@ class Router:
             for key, _ in self._selector.select(0.1):
                 try:
                     data, self._peers[key.fileobj] = key.fileobj.recvfrom(65536)
-                except ConnectionRefusedError:  # nobody there yet
+                except ConnectionRefusedError:  # nobody is listening yet
                     continue
                 for end, peer in self._peers.items():
                     if end is not key.fileobj and peer is not None:
@@ -60,7 +60,7 @@ class Router:
 
 
 class Camera(AppTest):
-    """A ground station finds the camera, asks it, selects an object, and is told where it is."""
+    """A ground station finds the camera, queries it, selects an object, and is told where it is."""
 
     def setUp(self):
         super().setUp()
@@ -90,7 +90,7 @@ class Camera(AppTest):
         self.fail(f"never heard {message} of component {component}")
 
     def command(self, command, *parameters, component=CAMERA):
-        """The result that the camera answers."""
+        """The result in the camera's answer."""
         filled = (*parameters, *[0] * (7 - len(parameters)))
         self.station.mav.command_long_send(1, component, command, 0, *filled)
         return self.hear("COMMAND_ACK", holds=lambda ack: ack.command == command).result
@@ -133,7 +133,7 @@ class Camera(AppTest):
         self.assertAlmostEqual(view.hfov, 70.0, delta=0.1)
         self.assertAlmostEqual((view.alt_camera - view.alt_image) / 1e3, 20.0, delta=2.0)
         self.assertAlmostEqual(sum(value**2 for value in view.q), 1.0, places=5)
-        # Zero rotation looks north; this one looks down: its forward axis is down.
+        # Zero rotation looks north. This camera looks down: its forward axis points down.
         w, x, y, z = view.q
         self.assertGreater(2 * (x * z - w * y), 0.8)
         self.assertEqual(self.command(mavlink.MAV_CMD_SET_MESSAGE_INTERVAL, mavlink.MAVLINK_MSG_ID_CAMERA_FOV_STATUS, -1), 0)

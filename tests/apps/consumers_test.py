@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Outputs as programs that are not ours read them."""
+"""Outputs, read by third-party programs."""
 import asyncio
 import configparser
 import contextlib
@@ -28,13 +28,13 @@ EARTH_RADIUS_M = 6.37e6
 
 
 def distance_m(a, b):
-    """Between (longitude, latitude) pairs that are near each other."""
+    """Distance between (longitude, latitude) pairs that are near each other."""
     east = math.radians(a[0] - b[0]) * math.cos(math.radians(a[1]))
     return EARTH_RADIUS_M * math.hypot(east, math.radians(a[1] - b[1]))
 
 
 class Replayed(AppTest):
-    """A recording whose class has a hostile name, and its objects by GeoJSON."""
+    """A recording whose class has a hostile name, and its objects from GeoJSON."""
 
     def setUp(self):
         super().setUp()
@@ -55,7 +55,7 @@ class Replayed(AppTest):
 
 
 class Files(Replayed):
-    """Files open where people open them."""
+    """Files can be opened in the programs that people use."""
 
     def test_geojson_by_gdal(self):
         self.replay()
@@ -134,7 +134,7 @@ class Tak(Replayed):
         self.assertEqual(len({uid.rsplit(".", 1)[0] for uid in latest}), 1, "one run")
         for uid, message in latest.items():
             object_id = int(uid.rsplit(".", 1)[1])
-            if object_id not in self.objects:  # merged, or given up: told before it was
+            if object_id not in self.objects:  # merged or deleted after it was sent
                 continue
             self.assertLess(distance_m((message.lon, message.lat), self.place(object_id)), 5e-3)
             sigma_m = self.objects[object_id]["properties"]["sigma_major_m"]
@@ -185,7 +185,7 @@ class Tak(Replayed):
 
 
 class UnharmedBySinks(Replayed):
-    """Whatever becomes of its outputs, a replay finds the same objects, to the byte, and ends."""
+    """Whatever happens to its outputs, a replay finds byte for byte the same objects, and ends."""
 
     def setUp(self):
         super().setUp()

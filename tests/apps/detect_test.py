@@ -17,12 +17,12 @@ RED, GREY = (255, 0, 0), (114, 114, 114)
 
 
 def pixels(column, row):
-    """Rows of RGB: a red cell of 16 px in grey."""
+    """Rows of RGB: a red cell of 16 px on grey."""
     return [[RED if (x // 16, y // 16) == (column, row) else GREY for x in range(WIDTH)] for y in range(HEIGHT)]
 
 
 def png(rows, bits=8):
-    """Without any library, so that nothing is shared with the program."""
+    """Written without any library, so that nothing is shared with the program."""
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
     scale, form = (257, "H") if bits == 16 else (1, "B")
@@ -37,7 +37,7 @@ def box_of(column, row):
 
 
 def y4m(cells):
-    """A video of ten frames a second, uncompressed (4:4:4)."""
+    """An uncompressed video (4:4:4) of ten frames per second."""
     video = b"YUV4MPEG2 W%d H%d F10:1 Ip A1:1 C444\n" % (WIDTH, HEIGHT)
     for cell in cells:
         flat = [pixel for row in pixels(*cell) for pixel in row]
@@ -69,7 +69,7 @@ def lines(text):
 
 
 class Detections(DetectTest):
-    """What geoloc_detect finds and how it tells."""
+    """What geoloc_detect finds and how it reports it."""
 
     def test_a_picture_is_a_line_of_json(self):
         picture = self.put("one.png", png(pixels(3, 2)))
@@ -142,7 +142,8 @@ class Detections(DetectTest):
             self.assert_boxes(*lines(openvino.out), (3, 2))
 
     def test_tiles_are_searched_as_well(self):
-        # The tile is searched at another scale than the whole, where the network's boxes are smaller.
+        # The tile is searched at another scale than the whole image, at which the network's boxes are
+        # smaller.
         picture = self.put("one.png", png(pixels(3, 2)))
         result = self.detect(picture, "--json", "-", "--tiles", 2, 1)
         self.assertEqual(result.status, 0, result.err)

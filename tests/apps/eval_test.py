@@ -124,7 +124,7 @@ class Sweeps(AppTest):
 
 
 class Rendered(AppTest):
-    """Drawn pictures and the real detector: the objects are those of the same run with drawn detections."""
+    """With rendered images and the real detector, the objects are those of the same run with drawn detections."""
 
     def test_ten_seconds_of_a_flight(self):
         result = run("geoloc_eval", "--flights", "none", "--scenarios", 3, "--seeds", 1, "--rendered", "--rendered-s", 10,

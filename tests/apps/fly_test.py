@@ -25,7 +25,7 @@ IGNORES_ALL = "signal.signal(signal.SIGINT, signal.SIG_IGN)\n" + FLIES_ON
 
 
 class EarlyEnds(AppTest):
-    """A program that dies ends the demo at once, the other program with it, and its words are shown last."""
+    """A program that dies ends the demo and the other program at once, and its messages are shown last."""
 
     def fly(self, simulator=FLIES_ON, app=FLIES_ON):
         binaries = self.folder / "bin"

@@ -6,7 +6,7 @@ import unittest
 
 from support import AppTest, World, run
 
-# A piece of the flight with targets in view; it takes a third of its time.
+# A part of the flight with targets in view; it is flown in a third of its time.
 PIECE = ("--start-s", 80, "--end-s", 95, "--speed", 3)
 
 
@@ -46,7 +46,7 @@ class LiveIsItsReplay(LiveRun):
 
 
 class Streams(LiveRun):
-    """Bad or missing streams never end a run, and nothing is guessed."""
+    """Bad or missing streams never end a run, and nothing is made up."""
 
     def test_an_unreachable_stream_is_tried_again_and_told_once(self):
         quick = self.write("config.json", {"video": {"retry_min_s": 0.1, "retry_max_s": 0.1}})
@@ -55,7 +55,7 @@ class Streams(LiveRun):
             for _ in range(4):  # seconds
                 app.wait_for("^00:", after=app.line_count())
             told = [line for line in app.lines if line.startswith("video: ")]
-            self.assertLessEqual(len(told), 2, told)  # connecting, and what is wrong
+            self.assertLessEqual(len(told), 2, told)  # one for connecting, and one for the fault
             self.assertEqual(app.interrupt(), 0)
         self.assertEqual(self.objects()["features"], [])
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The live page: in a browser over a live run, and before visitors of all kinds."""
+"""The live page, in a browser during a live run and with visitors of all kinds."""
 import http.server
 import json
 import math
@@ -19,7 +19,7 @@ except ImportError:
     sync_playwright = None
 
 CHROMIUM = shutil.which("chromium")
-SCREENSHOTS = BIN.parent / "screenshots"  # for people to look at
+SCREENSHOTS = BIN.parent / "screenshots"  # for manual inspection
 HOSTILE_NAME = "<img src=x onerror=document.title='run'>\"&"
 
 SCREENS = {
@@ -49,7 +49,7 @@ FIND_COLOUR = """([selector, colour]) => {
 }"""
 
 
-# A canvas on which a picture of another server was drawn cannot be read.
+# A canvas cannot be read after an image from another server was drawn on it.
 IS_TAINTED = """() => {
   try {
     document.querySelector("#map-canvas").getContext("2d").getImageData(0, 0, 1, 1);
@@ -79,7 +79,7 @@ TILE = b'<svg xmlns="http://www.w3.org/2000/svg" width="256" height="256"><path 
 
 
 class TileServer:
-    """A map of one colour; `asked` holds the (zoom, x, y) that it was asked for."""
+    """A tile server with a map of one colour; `asked` holds the (zoom, x, y) of its requests."""
 
     def __init__(self):
         self.asked = asked = set()
@@ -171,7 +171,7 @@ class LivePage(AppTest):
             self.assertTrue(any(tile_of(feature, zoom) == (zoom, x, y) for zoom, x, y in tiles.asked), feature)
 
     def finds_colour(self, page, selector, colour):
-        """Waits for it: what is drawn follows the run."""
+        """Waits until it is drawn: the page follows the run."""
         page.wait_for_function(f"(what) => ({FIND_COLOUR})(what) !== null", arg=[selector, colour])
         return page.evaluate(FIND_COLOUR, [selector, colour])
 
@@ -184,7 +184,7 @@ class LivePage(AppTest):
         self.assertEqual(page.locator("#objects img").count(), 0)
 
     def check_screen(self, name, page, url):
-        """A click on an object shows its place; nothing sticks out; a picture is kept."""
+        """A click on an object shows its position; nothing overflows; a screenshot is kept."""
         page.bring_to_front()
         page.locator("#fit").click()  # the map stands still from here on
         page.wait_for_selector("#fit[aria-pressed=false]")
@@ -193,14 +193,14 @@ class LivePage(AppTest):
         coordinates = self.wait_for_coordinates(page, url)
         pointed = re.findall(r"-?\d+\.\d+", page.locator("#readout").inner_text())[:2]  # where the click was
         for read, told in zip(pointed, coordinates["degrees"].split(", ")):
-            self.assertAlmostEqual(float(read), float(told), delta=2e-5)  # 2 m; a pixel is some decimetres
+            self.assertAlmostEqual(float(read), float(told), delta=2e-5)  # 2 m; a pixel is a few decimetres
         self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth - innerWidth"), 0)
         page.locator("#fit").click()
         SCREENSHOTS.mkdir(parents=True, exist_ok=True)
         page.screenshot(path=SCREENSHOTS / f"{name}.png", full_page=name.startswith("phone"))
 
     def wait_for_coordinates(self, page, url):
-        """What the server says of the selected object, once the page shows the same: both follow the run."""
+        """The server's data of the selected object, once the page shows the same: both follow the run."""
         chosen = int(re.match(r"\d+", page.locator("#selected h2").inner_text())[0])
         deadline = time.monotonic() + PATIENCE_S
         while True:
@@ -209,7 +209,7 @@ class LivePage(AppTest):
             shown = page.locator("#selected .place dd").all_inner_texts()
             self.assertRegex(" | ".join(shown), FOUR_NOTATIONS)
             places = [list(map(float, text.split(", "))) for text in (shown[0], coordinates["degrees"])]
-            if math.dist(*places) < 1e-7:  # a centimetre: the page is not told of less than a millimetre
+            if math.dist(*places) < 1e-7:  # a centimetre: the page is not sent changes of less than a millimetre
                 return coordinates
             self.assertLess(time.monotonic(), deadline, f"{shown} is not {coordinates}")
             page.wait_for_timeout(100)
@@ -246,7 +246,7 @@ class Visitor:
 
 
 class Visitors(AppTest):
-    """Whoever looks, and however: the results are the same, and the program ends when it is told to."""
+    """Whoever visits, and however: the results are the same, and the program ends when it is told to."""
 
     def test_fifty_pages_change_no_byte_and_delay_no_end(self):
         recording = self.make_recording()

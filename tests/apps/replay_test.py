@@ -32,7 +32,7 @@ class Determinism(AppTest):
 
 
 class Priors(AppTest):
-    """What is known before a flight makes its results better, and is not believed where it contradicts them."""
+    """Prior knowledge improves the results of a flight, and is not used where it contradicts them."""
 
     def setUp(self):
         super().setUp()
@@ -85,7 +85,7 @@ class Priors(AppTest):
 
 
 class BadRecordings(AppTest):
-    """A recording that cannot be trusted is refused with file, line and reason, and nothing is written."""
+    """A faulty recording is rejected with file, line and reason, and nothing is written."""
 
     def setUp(self):
         super().setUp()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the programs under test and reads what they say. Standard library only; traffic stays on the loopback."""
+"""Runs the programs under test and reads their messages. Standard library only; traffic stays on the loopback."""
 import collections
 import json
 import os
@@ -14,7 +14,7 @@ import time
 import unittest
 
 BIN = pathlib.Path(os.environ["GEOLOC_BIN_DIR"])
-PATIENCE_S = 100  # how long to wait for what must come; a slow machine needs it, a quick one never does
+PATIENCE_S = 100  # how long to wait for what must come; only a slow machine needs so long
 
 Result = collections.namedtuple("Result", "status out err")
 
@@ -27,14 +27,14 @@ def run(program, *arguments, **options):
 
 
 def free_port(kind=socket.SOCK_DGRAM):
-    """A port of the loopback that nobody holds."""
+    """A free port on the loopback."""
     with socket.socket(socket.AF_INET, kind) as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
 
 
 class Live:
-    """A program that runs beside the test; its messages (stderr) can be waited for. It ends with the `with` block."""
+    """A program that runs in parallel with the test, which can wait for its messages (stderr). It ends with the `with` block."""
 
     def __init__(self, program, *arguments, **options):
         self._process = subprocess.Popen([BIN / program, *map(str, arguments)], stderr=subprocess.PIPE,
@@ -59,7 +59,7 @@ class Live:
             return [line for line in self._lines if line is not None]
 
     def wait_for(self, pattern, after=0):
-        """The match of `pattern` in the first line from number `after` that holds it; line_count() tells numbers."""
+        """The match of `pattern` in the first line that contains it, from line number `after` on (see line_count())."""
         deadline = time.monotonic() + PATIENCE_S
         with self._said_more:
             while True:
@@ -76,13 +76,13 @@ class Live:
         return len(self.lines)
 
     def wait(self):
-        """Its exit status, once it ends by itself."""
+        """Waits until it ends by itself; returns its exit status."""
         status = self._process.wait(PATIENCE_S)
         self._reader.join()
         return status
 
     def interrupt(self):
-        """Ctrl-C; its exit status."""
+        """Sends Ctrl-C; returns its exit status."""
         self._process.send_signal(signal.SIGINT)
         return self.wait()
 
@@ -97,7 +97,7 @@ class Live:
 
 
 class AppTest(unittest.TestCase):
-    """A test with a folder of its own, `self.folder`, gone at its end."""
+    """A test with a temporary folder of its own, `self.folder`."""
 
     def setUp(self):
         holder = tempfile.TemporaryDirectory(prefix="geoloc-test-")
@@ -105,7 +105,7 @@ class AppTest(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
 
     def assert_refused(self, result, *reasons):
-        """Exit status 2, every reason told, and told about one program only."""
+        """Asserts exit status 2 and that every reason is reported."""
         self.assertEqual(result.status, 2, result.err)
         for reason in reasons:
             self.assertIn(str(reason), result.err)
@@ -123,7 +123,7 @@ class AppTest(unittest.TestCase):
 
 
 class World:
-    """The ports of a simulated drone, and the arguments of those who meet there."""
+    """The ports of a simulated drone, and the programs' arguments to use them."""
 
     def __init__(self):
         self.udp_port = free_port()
@@ -140,7 +140,7 @@ class World:
 
 
 def rmse_m(summary):
-    """Of a program's last line about a run with known truth."""
+    """The RMSE in a program's last line about a run with known truth."""
     return float(re.search(r"RMSE ([\d.]+) m", summary)[1])
 
 

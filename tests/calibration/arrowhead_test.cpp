@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/arrowhead.hpp"
+#include "calibration/arrowhead.hpp"
 
 #include <gtest/gtest.h>
 

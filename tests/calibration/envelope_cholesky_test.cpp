@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/envelope_cholesky.hpp"
+#include "calibration/envelope_cholesky.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/linearize.hpp"
+#include "calibration/linearize.hpp"
 
 #include <gtest/gtest.h>
 

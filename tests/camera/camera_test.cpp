@@ -4,44 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <opencv2/calib3d.hpp>
-#include <random>
 
+#include "camera/lenses.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/geometry/angles.hpp"
 
 namespace geoloc {
 namespace {
 
-struct Lens {
-  const char* name;
-  std::array<double, 5> distortion;
-};
-
-CameraIntrinsics camera_with(const std::array<double, 5>& distortion) {
-  return {1280, 720, 905.3, 911.7, 631.2, 366.4, distortion};
-}
-
 class CameraLaws : public ::testing::TestWithParam<Lens> {};
-
-TEST_P(CameraLaws, PixelIsOpenCvsProjectPoints) {
-  const CameraIntrinsics k = camera_with(GetParam().distortion);
-  const CameraModel camera(k);
-  const cv::Matx33d matrix(k.fx_px, 0, k.cx_px, 0, k.fy_px, k.cy_px, 0, 0, 1);
-  const std::vector<double> distortion(k.distortion.begin(), k.distortion.end());
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> x(-12, 12), y(-7, 7), z(18, 80);
-  for (int i = 0; i < 500; ++i) {
-    const cv::Point3d point(x(random), y(random), z(random));
-    std::vector<cv::Point2d> expected;
-    cv::projectPoints(std::vector<cv::Point3d>{point}, cv::Vec3d(), cv::Vec3d(), matrix, distortion,
-                      expected);
-    const auto pixel = camera.pixel({point.x, point.y, point.z});
-    ASSERT_TRUE(pixel);
-    EXPECT_NEAR(pixel->x(), expected[0].x, 1e-9);
-    EXPECT_NEAR(pixel->y(), expected[0].y, 1e-9);
-  }
-}
 
 TEST_P(CameraLaws, RayIsTheInverseOfPixelOverTheWholeImage) {
   const CameraModel camera(camera_with(GetParam().distortion));
@@ -58,23 +29,20 @@ TEST_P(CameraLaws, RayIsTheInverseOfPixelOverTheWholeImage) {
 
 TEST_P(CameraLaws, JacobianIsTheNumericDerivative) {
   const CameraModel camera(camera_with(GetParam().distortion));
-  const Eigen::Vector2d pixel{200.0, 600.0};
   const double step_px = 1e-3;
-  const auto ray = camera.ray(pixel);
-  ASSERT_TRUE(ray);
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector2d moved = step_px * Eigen::Vector2d::Unit(axis);
-    const Eigen::Vector2d slope =
-        (camera.ray(pixel + moved)->normalized - camera.ray(pixel - moved)->normalized) / (2.0 * step_px);
-    EXPECT_LT((slope - ray->normalized_from_pixel.col(axis)).norm(), 1e-9);
+  for (const Eigen::Vector2d& pixel : {Eigen::Vector2d(200, 600), {1100, 80}, {640, 20}, {30, 360}}) {
+    const auto ray = camera.ray(pixel);
+    ASSERT_TRUE(ray);
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::Vector2d moved = step_px * Eigen::Vector2d::Unit(axis);
+      const Eigen::Vector2d slope =
+          (camera.ray(pixel + moved)->normalized - camera.ray(pixel - moved)->normalized) / (2.0 * step_px);
+      EXPECT_LT((slope - ray->normalized_from_pixel.col(axis)).norm(), 1e-9);
+    }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Lenses, CameraLaws,
-                         ::testing::Values(Lens{"pinhole", {}},
-                                           Lens{"barrel", {-0.28, 0.09, 0.001, -0.0005, -0.01}},
-                                           Lens{"pincushion", {0.12, -0.02, -0.002, 0.001, 0.0}}),
-                         [](const auto& parameter) { return std::string(parameter.param.name); });
+INSTANTIATE_TEST_SUITE_P(Lenses, CameraLaws, every_lens(), lens_name);
 
 TEST(Camera, RefusesPixelsBeyondItsLensModel) {
   // This barrel folds back at 1.18 from the axis: pixels beyond have no bearing, points beyond no pixel.
@@ -124,6 +92,18 @@ TEST(Mount, ForwardLookingIsTheZeroMount) {
   EXPECT_EQ(pose.translation, Eigen::Vector3d(0.1, 0.2, 0.3));
 }
 
+TEST(Mount, TurnsByYawThenPitchThenRoll) {
+  const auto turned = [](const CameraMount& mount, const Eigen::Vector3d& axis) {
+    return Eigen::Vector3d(body_from_camera(mount).rotation * axis);
+  };
+  const Eigen::Vector3d looks = Eigen::Vector3d::UnitZ(), top = -Eigen::Vector3d::UnitY();
+  EXPECT_TRUE(turned({0, 0, 90, 0, 0, 0}, looks).isApprox(Eigen::Vector3d(0, 1, 0)));    // to the right
+  EXPECT_TRUE(turned({90, 0, 0, 0, 0, 0}, top).isApprox(Eigen::Vector3d(0, 1, 0)));      // top to the right
+  EXPECT_TRUE(turned({0, -90, 90, 0, 0, 0}, looks).isApprox(Eigen::Vector3d(0, 0, 1)));  // down,
+  EXPECT_TRUE(turned({0, -90, 90, 0, 0, 0}, top).isApprox(Eigen::Vector3d(0, 1, 0)));    // top to the right
+  EXPECT_TRUE(turned({0, 30, 0, 0, 0, 0}, looks).isApprox(Eigen::Vector3d(std::sqrt(0.75), 0, -0.5)));
+}
+
 TEST(CameraConfig, NamesEveryProblem) {
   CameraConfig config;
   config.intrinsics.width_px = 0;
@@ -132,6 +112,44 @@ TEST(CameraConfig, NamesEveryProblem) {
   config.mount.pitch_deg = std::numeric_limits<double>::infinity();
   EXPECT_EQ(config.problems().size(), 4U);
   EXPECT_THROW(CameraModel{config.intrinsics}, std::invalid_argument);
+}
+
+struct FieldLimits {
+  const char* field;
+  double inside, outside;
+  void (*set)(CameraConfig&, double);
+};
+
+TEST(CameraConfig, EachFieldHasItsLimits) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  const FieldLimits limits[] = {
+      {"width", 1, 0, [](CameraConfig& c, double v) { c.intrinsics.width_px = static_cast<int>(v); }},
+      {"width", 32768, 32769, [](CameraConfig& c, double v) { c.intrinsics.width_px = static_cast<int>(v); }},
+      {"height", 1, 0, [](CameraConfig& c, double v) { c.intrinsics.height_px = static_cast<int>(v); }},
+      {"height", 32768, 32769,
+       [](CameraConfig& c, double v) { c.intrinsics.height_px = static_cast<int>(v); }},
+      {"fx", 1e-9, 0, [](CameraConfig& c, double v) { c.intrinsics.fx_px = v; }},
+      {"fx", 1e9, infinity, [](CameraConfig& c, double v) { c.intrinsics.fx_px = v; }},
+      {"fy", 1e-9, 0, [](CameraConfig& c, double v) { c.intrinsics.fy_px = v; }},
+      {"fy", 1e9, infinity, [](CameraConfig& c, double v) { c.intrinsics.fy_px = v; }},
+      {"cx", -1e9, -infinity, [](CameraConfig& c, double v) { c.intrinsics.cx_px = v; }},
+      {"cy", 1e9, infinity, [](CameraConfig& c, double v) { c.intrinsics.cy_px = v; }},
+      {"distortion", -9, infinity, [](CameraConfig& c, double v) { c.intrinsics.distortion[4] = v; }},
+      {"mount", 360, 360.1, [](CameraConfig& c, double v) { c.mount.roll_deg = v; }},
+      {"mount", -360, -360.1, [](CameraConfig& c, double v) { c.mount.pitch_deg = v; }},
+      {"mount", 360, 360.1, [](CameraConfig& c, double v) { c.mount.yaw_deg = v; }},
+      {"mount", 100, 100.1, [](CameraConfig& c, double v) { c.mount.x_m = v; }},
+      {"mount", -100, -100.1, [](CameraConfig& c, double v) { c.mount.y_m = v; }},
+      {"mount", 100, 100.1, [](CameraConfig& c, double v) { c.mount.z_m = v; }},
+  };
+  for (const FieldLimits& limit : limits) {
+    CameraConfig config;
+    limit.set(config, limit.inside);
+    EXPECT_TRUE(config.problems().empty()) << limit.field << " " << limit.inside;
+    limit.set(config, limit.outside);
+    ASSERT_EQ(config.problems().size(), 1U) << limit.field << " " << limit.outside;
+    EXPECT_NE(config.problems().front().find(limit.field), std::string::npos) << config.problems().front();
+  }
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ TEST(Score, IsWhatAHandCountGives) {
   EXPECT_EQ(score.merged_pairs, 1);  // 21 beside 20; the lost target at 50 has no neighbour
   EXPECT_NEAR(score.rmse_m, 0.5, 1e-12);
   EXPECT_NEAR(score.relative_rmse_m, 0.0, 1e-12);  // all errors are one offset
-  EXPECT_EQ(score.target_of_object, (std::vector<int>{0, 1, 2, -1}));
+  EXPECT_EQ(score.target_of_object, (std::vector<std::optional<std::size_t>>{0, 1, 2, std::nullopt}));
 }
 
 TEST(Score, OfNothingIsZero) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the simulator reads from a flight's folder: truth as gzip and as text, frames of the log.
+// Fuzzes what the simulator reads from a flight's folder: truth as gzip and as text, frames of the log.
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>

@@ -17,9 +17,9 @@
 #include "geoloc/io/json/camera_file.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
 
-// Every reader of a file from outside, given any bytes: it may refuse them with a std::exception, but what it
-// accepts must be usable. Broken promises abort. Shared by the fuzz programs and by the test that damages
-// good files.
+// Every reader of external files, given any bytes: it may reject them with a std::exception, but what it
+// accepts must be usable. Violations abort. Shared by the fuzz programs and by the test that damages good
+// files.
 namespace geoloc::io::hostile {
 
 inline void require(bool holds) {
@@ -59,7 +59,7 @@ inline void read_any_tlog(const std::string& text) {
   std::size_t framed = 0;
   for (const TlogRecord& record : log.records()) {
     require(record.frame[0] == 0xFD || record.frame[0] == 0xFE);
-    const volatile std::uint8_t last = record.frame[record.size - 1];  // a sanitizer would object
+    const volatile std::uint8_t last = record.frame[record.size - 1];  // a sanitizer would detect a bad read
     static_cast<void>(last);
     framed += 8 + record.size;
   }
@@ -83,7 +83,7 @@ inline void read_any_config(const std::string& text) {
   const auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded()) return;
   if (json.is_object() && json.contains("camera") && json["camera"].is_string())
-    return;  // would open that file
+    return;  // it would open that file
   GeolocatorConfig config;
   std::vector<std::string> problems;
   geolocator_from_json(json, config, problems);
@@ -101,7 +101,7 @@ inline void read_any_truth(const std::string& text) {
   }
 }
 
-/// --reference and --calibration.
+/// --known-points and --calibration.
 inline void read_any_priors(const std::string& text) {
   try {
     for (const KnownPoint& point : parse_known_points(text, "any")) require(point.problems().empty());

@@ -11,7 +11,7 @@
 
 namespace geoloc::io::hostile {
 
-/// The words of a text, one space apart; missing ones are empty.
+/// A word of a text with words one space apart; missing ones are empty.
 inline std::string word(const std::string& text, int number) {
   std::size_t begin = 0;
   for (; number > 0 && begin != std::string::npos; --number) {
@@ -21,7 +21,7 @@ inline std::string word(const std::string& text, int number) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find(' ', begin) - begin);
 }
 
-/// Reads bytes as a request, an endpoint and a tile URL. Aborts where an answer breaks its promises.
+/// Reads bytes as a request, an endpoint and a tile URL. Aborts if an answer breaks its promises.
 inline void ask_for_pages(const std::string& bytes) {
   static const LiveDocument document{{"run", true}};
   static PictureBoard board{{"target"}, std::chrono::milliseconds{100}};
@@ -32,12 +32,12 @@ inline void ask_for_pages(const std::string& bytes) {
   if (answer.status == 200 && !is_ours) std::abort();
   if (answer.status < 200 || answer.status > 499) std::abort();
 
-  const std::string origin = tile_origin(word(bytes, 5));  // goes into a header
+  const std::string origin = tile_origin(word(bytes, 5));  // is put into a header
   if (origin.find_first_of(" ;,'\r\n\"") != std::string::npos) std::abort();
   try {
     const HttpEndpoint endpoint = parse_http_endpoint(bytes);
     if (endpoint.host.empty()) std::abort();
-  } catch (const std::invalid_argument&) {  // what is none is refused
+  } catch (const std::invalid_argument&) {  // invalid ones are rejected
   }
 }
 

@@ -13,7 +13,7 @@ namespace geoloc::io::hostile {
 
 using ReadRequest = std::optional<std::variant<PageRequest, Refusal>>;
 
-/// Comparable: a request's parts, or the status of its refusal.
+/// A request's parts, or the status of its rejection, in a comparable form.
 inline std::string text_of(const ReadRequest& read) {
   if (!read) return "incomplete";
   if (const Refusal* const refusal = std::get_if<Refusal>(&*read)) return std::to_string(refusal->status);
@@ -22,8 +22,8 @@ inline std::string text_of(const ReadRequest& read) {
          request.fetch_mode;
 }
 
-/// Reads bytes as an HTTP request, at once and in two pieces. Aborts where that makes a difference, and where
-/// a request holds a line break.
+/// Reads bytes as an HTTP request, at once and in two pieces. Aborts if the results differ, or if a request
+/// contains a line break.
 inline void read_request(std::string_view bytes) {
   constexpr std::size_t kRoom = 2048;
   RequestHead at_once(kRoom);

@@ -20,7 +20,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// What reaches the estimator must be fit for it, whatever came in.
+/// Checks that whatever reaches the estimator is usable, whatever the input.
 class DistrustfulSink : public io::TelemetrySink {
  public:
   void on_attitude(const AttitudeSample& sample) override {
@@ -42,7 +42,7 @@ class DistrustfulSink : public io::TelemetrySink {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A MAVLink 2 frame of the vehicle with the right checksum: mutations seldom find it by themselves.
+/// A MAVLink 2 frame of the vehicle with the right checksum, which mutations seldom find by themselves.
 Bytes checksummed_frame(std::uint8_t message_id, const std::uint8_t* payload, std::size_t size) {
   const std::uint8_t header[] = {0xFD, static_cast<std::uint8_t>(size), 0, 0, 0, 1, 1, message_id, 0, 0};
   Bytes frame(std::size(header) + size);
@@ -111,8 +111,8 @@ void play(const Bytes& stream, std::size_t piece) {
 
 }  // namespace
 
-/// Framing, decoding, the link's state, its answers and those of a camera. The first byte sets the size of
-/// the pieces that the rest arrives in, and whether it is taken as it is or as messages to be framed.
+/// Fuzzes framing, decoding, the link's state, its answers and those of a camera. The first byte sets the
+/// size of the pieces in which the rest arrives, and whether the rest is raw bytes or messages to be framed.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   constexpr std::uint8_t kFramedFlag = 0x80;

@@ -6,7 +6,7 @@
 
 #include "geoloc/io/picture/picture_file.hpp"
 
-/// Any bytes as a JPEG. What is whole stays so whatever follows it.
+/// Any bytes as a JPEG. A complete one stays complete whatever follows it.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string_view all{reinterpret_cast<const char*>(data), size};

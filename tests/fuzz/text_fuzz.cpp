@@ -26,7 +26,7 @@ bool has_control_characters(const std::string& text) {
 
 }  // namespace
 
-/// A class name of any bytes: clean text stays as it is, and no format lets it out of its field.
+/// A class name of any bytes: clean text is unchanged, and it cannot escape from its field in any format.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string name(data, data + size);
   const std::string clean = io::clean_text(name);

@@ -16,8 +16,8 @@ Rigid3d pose_above(double height_m, double roll_deg, double pitch_deg, double ya
 /// A camera whose lens distorts visibly.
 CameraIntrinsics barrel_camera();
 
-/// What an object adds to the picture, found without any camera model: grey levels of |with - without|
-/// (CV_32FC1).
+/// The contribution of an object to the picture, found without any camera model: grey levels of |with -
+/// without| (CV_32FC1).
 cv::Mat drawn_object(const CameraIntrinsics& intrinsics, const PlacedObject& object,
                      const Rigid3d& enu_from_camera,
                      const Eigen::Vector2d& blur_px = Eigen::Vector2d::Zero());

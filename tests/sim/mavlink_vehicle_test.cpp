@@ -27,8 +27,8 @@ VehicleTime at(double time_s) {
   return VehicleTime{from_seconds(time_s)};
 }
 
-/// The vehicle of one flight, driven by a clock of the test, and a peer that decodes with geoloc's own
-/// receiver code.
+/// The vehicle of one flight, driven by the test's clock, and a peer that decodes with geoloc's own receiver
+/// code.
 class Vehicle : public ::testing::Test {
  protected:
   struct Received {
@@ -223,8 +223,8 @@ TEST_F(Vehicle, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(all<io::CommandAck>().at(2).result, kDenied);
 }
 
-/// COMMAND_LONG in MAVLink 1 by hand, from the definition of the message: geoloc itself says no such
-/// commands.
+/// COMMAND_LONG in MAVLink 1, assembled by hand from the definition of the message, because geoloc itself
+/// never sends such commands.
 Datagram command_long(std::uint16_t command, float parameter1, std::uint8_t target_system) {
   constexpr std::size_t kHeader = 6, kPayload = 33, kChecksum = 2;
   constexpr std::uint8_t kChecksumSeed = 152;

@@ -33,8 +33,8 @@ Frames frames_of(const Flight& flight, const RecordingSettings& settings) {
   return generate_frames(flight, settings, make_scenario(settings.run.scenario, settings.run.seed));
 }
 
-/// By the definition of the camera (CameraModel is tested against OpenCV elsewhere): pixel to the plane z =
-/// 0.
+/// Maps a pixel to the plane z = 0 by the definition of the camera (CameraModel is tested against OpenCV
+/// elsewhere).
 Eigen::Vector2d on_ground(const Eigen::Vector2d& pixel, const CameraModel& camera,
                           const Rigid3d& enu_from_camera) {
   const Eigen::Vector3d ray = enu_from_camera.rotation * camera.ray(pixel)->normalized.homogeneous();

@@ -20,7 +20,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 
 constexpr int kWidth_px = 320, kHeight_px = 240, kCell_px = 32, kBits = 8;
 
-/// A number as black and white squares in the top row, large enough to live through the encoder.
+/// A number as black and white squares in the top row, large enough to survive the encoder.
 std::vector<std::uint8_t> picture_of(int number) {
   std::vector<std::uint8_t> bgr(std::size_t{3} * kWidth_px * kHeight_px, 128);
   for (int y = 0; y < kCell_px; ++y) {
@@ -50,7 +50,7 @@ RtspCameraSettings small_camera() {
   return settings;
 }
 
-/// Pushes numbered pictures 20 times a second until it goes, and keeps their stamps.
+/// Pushes numbered pictures at 20 Hz until it is destroyed, and keeps their time stamps.
 class Painter {
  public:
   explicit Painter(RtspCamera& camera) : thread_([this, &camera] { run(camera); }) {}

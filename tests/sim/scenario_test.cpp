@@ -11,7 +11,7 @@
 namespace geoloc::sim {
 namespace {
 
-/// Of every point to its nearest neighbour [m], sorted.
+/// Distance of every point to its nearest neighbour [m], sorted.
 std::vector<double> nearest_distances_m(const std::vector<Eigen::Vector2d>& points) {
   std::vector<double> distances_m;
   for (std::size_t i = 0; i < points.size(); ++i) {

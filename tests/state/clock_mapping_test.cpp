@@ -44,7 +44,7 @@ class SimulatedVehicle {
     map.add_round_trip(sent_at, clock(heard_at), heard_at + link_.down + jitter());
   }
 
-  /// Stamps are in whole milliseconds, as MAVLink's are.
+  /// Sends a time stamp in whole milliseconds, as MAVLink does.
   void send_stamp(VehicleClockMap& map, HostTime sent_at) {
     const VehicleTime stamp{std::chrono::floor<std::chrono::milliseconds>(clock(sent_at).time_since_epoch())};
     map.add_arrival(stamp, sent_at + link_.down + jitter());
@@ -76,7 +76,7 @@ TEST_P(RegimesOfLinks, RoundTripErrorStaysWithinItsBound) {
     const HostTime later = now + 1s;
     ASSERT_LE(std::chrono::abs(vehicle.error(map, later)), *map.error_bound() + 1s / 5000) << second;
     if (second < 64) continue;
-    // Half the difference of the ways remains; besides it, what is left of the jitter and the drift.
+    // Half the difference of the two delays remains, plus the residuals of jitter and drift.
     const Duration remainder = std::chrono::abs(vehicle.error(map, later) - unequal_ways);
     ASSERT_LE(seconds(remainder), 1e-3 * (0.4 + 0.3 * link.jitter_ms) + 1e-5 * std::abs(link.drift_ppm))
         << second;
@@ -191,7 +191,7 @@ TEST(VehicleClockMap, IgnoresRoundTripsOnAnotherClockThanTheStamps) {
   SimulatedVehicle vehicle(kGoodLink);
   VehicleClockMap map;
   vehicle.send_stamp(map, kStart);
-  for (int i = 0; i < 10; ++i) {  // someone who answers with his uptime, a day long
+  for (int i = 0; i < 10; ++i) {  // another system that answers with its uptime of a day
     map.add_round_trip(kStart + i * 1s, VehicleTime{24h + i * 1s}, kStart + i * 1s + 2ms);
   }
   EXPECT_EQ(map.counts().refused_round_trips, 10U);

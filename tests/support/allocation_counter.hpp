@@ -5,7 +5,8 @@
 
 namespace geoloc::testing {
 
-/// Calls of operator new in this program so far. Linking support/allocation_counter.cpp makes them counted.
+/// Number of calls of operator new in this program so far. They are counted if support/allocation_counter.cpp
+/// is linked.
 std::size_t allocations();
 
 }  // namespace geoloc::testing

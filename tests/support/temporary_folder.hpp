@@ -10,7 +10,7 @@
 
 namespace geoloc::testing {
 
-/// A folder that is gone when the test is.
+/// A folder that is removed at the end of the test.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

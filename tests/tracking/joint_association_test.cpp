@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/joint_association.hpp"
+#include "tracking/joint_association.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double kGate = 11.8, kAmbiguity = 9.0;
 constexpr double kOwnSigma_m = 0.05;
 
-/// All looks share a position error of `shared_sigma_m` an axis; nothing else is unknown.
+/// All looks share a position error of `shared_sigma_m` per axis; nothing else is unknown.
 Pairing pairing(int look, int track, const Eigen::Vector2d& residual, double shared_sigma_m) {
   Pairing pairing;
   pairing.look = look;

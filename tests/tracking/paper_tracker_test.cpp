@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/paper_tracker.hpp"
+#include "tracking/paper_tracker.hpp"
 
 #include <gtest/gtest.h>
 

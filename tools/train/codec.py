@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a video link does to a picture: H.264 as a drone's encoder makes it, blocks, lost grain and all."""
+"""The effect of a video link on an image: H.264 as a drone's encoder makes it, with blocks and lost grain."""
 
 from fractions import Fraction
 from io import BytesIO
@@ -8,11 +8,11 @@ import av
 import cv2
 import numpy as np
 
-FRAMES = 4  # the first is coded whole, the others as changes; the last one is kept
+FRAMES = 4  # the first is a key frame, the others are predicted; the last one is kept
 FRAME_RATE = 30
 QUANTIZERS = (20, 41)  # 20: 720p at more than 20 Mbit/s, 41: under 1 Mbit/s
-FASTEST_PX = 8.0  # a frame
-SHARE_FILMED = 0.75  # of the pictures; the others are left as they are
+FASTEST_PX = 8.0  # per frame
+SHARE_FILMED = 0.75  # of the images; the others are left as they are
 
 
 def encode(frames: list[np.ndarray], quantizer: int) -> bytes:
@@ -39,7 +39,7 @@ def last_frame(video: bytes) -> np.ndarray:
 
 
 class Film:
-    """Draws quality, motion and noise from its seed; a picture's place in the sequence decides what it gets."""
+    """Draws quality, motion and noise from its seed; an image's place in the sequence decides what it gets."""
 
     def __init__(self, seed: int, height: int, width: int):
         self._random = np.random.default_rng(seed)

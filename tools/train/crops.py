@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Training crops: squares around targets and look-alikes, at random scales, laid any way, in any colours."""
+"""Training crops: squares around targets and look-alikes, at random scales, in any orientation and any colours."""
 
 from dataclasses import dataclass
 from enum import IntEnum
@@ -10,15 +10,15 @@ import numpy as np
 from dataset import LEAST_SIDE_PX, Example
 
 SCALES = (0.5, 1.33)
-SHOWN_TARGET = 0.6  # share of the crops that show a target for certain,
+SHOWN_TARGET = 0.6  # share of the crops that are certain to show a target,
 SHOWN_LOOK_ALIKE = 0.2  # and a look-alike; the others anything
-MOSAICS = 0.7  # share put together from four crops, which shows four times as many objects at no cost
-GAINS = (0.3, 1.8)  # of the exposure: a camera's own range is wider than that of the pictures
-CROP_VISIBLE = 0.5  # a target of which less is left in the crop is neither right nor wrong
+MOSAICS = 0.7  # share of mosaics of four crops, which show four times as many objects at no cost
+GAINS = (0.3, 1.8)  # of the exposure: a camera's range is wider than that of the images
+CROP_VISIBLE = 0.5  # a target with a smaller part in the crop is neither right nor wrong
 
 
 class Role(IntEnum):
-    """What a box says about the cells under it."""
+    """The meaning of a box for the cells under it."""
 
     UNDECIDED = 0  # a target too small or too much covered to be taught: neither right nor wrong
     TARGET = 1
@@ -55,7 +55,7 @@ def part_inside(targets: np.ndarray, size: int) -> np.ndarray:
 
 
 def random_crop(example: Example, size: int, random: np.random.Generator) -> Crop:
-    """A square of size px out of the example, at a random scale."""
+    """A square of `size` px from the example, at a random scale."""
     scale = np.exp(random.uniform(*np.log(SCALES)))
     side = min(int(round(size / scale)), *example.image.shape[:2])
     left, top = random_corner(example, side, random)
@@ -91,7 +91,7 @@ def mosaic(examples: list[Example], size: int, random: np.random.Generator) -> C
 
 
 def varied(example: Example, others: list[Example], size: int, random: np.random.Generator) -> Crop:
-    """A crop of the example, or one with three of the others beside it."""
+    """A crop of the example, alone or in a mosaic with three of other examples."""
     if random.random() >= MOSAICS:
         return flipped(random_crop(example, size, random), random)
     beside = [others[i] for i in random.integers(len(others), size=3)]
@@ -99,7 +99,7 @@ def varied(example: Example, others: list[Example], size: int, random: np.random
 
 
 def flipped(crop: Crop, random: np.random.Generator) -> Crop:
-    """One of the eight ways to lay a square."""
+    """One of the eight orientations of a square."""
     image, boxes, size = crop.image, crop.boxes, crop.image.shape[0]
     if random.random() < 0.5:
         image, boxes = image[:, ::-1], boxes * (-1, 1, 1, 1) + (size, 0, 0, 0)

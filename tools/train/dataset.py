@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The pictures of `geoloc_sim --images` as a detector sees them: after a video link, with all that is in view."""
+"""The images of `geoloc_sim --images` as a detector sees them, after a video link, with everything in view."""
 
 import csv
 from collections import defaultdict
@@ -15,9 +15,9 @@ from codec import Film
 INPUT_WIDTH = 1280  # of the network
 INPUT_HEIGHT = 736
 FILL = 114  # grey of the letterbox' bars
-LEAST_VISIBLE = 0.5  # of a target that is to be found
-STEEPEST_DEG = 60.0  # from the vertical; targets seen from flatter are taught, but not demanded
-LEAST_LEGIBLE = 0.5  # correlation of what a target looks like with what it would in a camera that adds nothing
+LEAST_VISIBLE = 0.5  # of a target that must be found
+STEEPEST_DEG = 60.0  # from the vertical; targets seen at flatter angles are training data, but need not be found
+LEAST_LEGIBLE = 0.5  # correlation of a target's appearance with that in an ideal camera
 LEGIBLE_IN = 1.2  # boxes around it
 LEAST_SIDE_PX = 8.0  # of its box; smaller ones are neither taught nor held against the network
 
@@ -26,16 +26,16 @@ LEAST_SIDE_PX = 8.0  # of its box; smaller ones are neither taught nor held agai
 class Example:
     image: np.ndarray  # height x width x 3, RGB, 8 bits
     targets: np.ndarray  # K x 4, float32: centre x, y, width, height [px]
-    is_taught: np.ndarray  # K: is an example; the others are neither right nor wrong
+    is_taught: np.ndarray  # K: is training data; the others are neither right nor wrong
     visible: np.ndarray  # K: share of the target that is in the picture and uncovered
     tilt_deg: np.ndarray  # K: of the line of sight from the vertical
-    legible: np.ndarray  # K: correlation with what a camera would show that adds nothing; 1 where that is not known
+    legible: np.ndarray  # K: correlation with its appearance in an ideal camera; 1 if that is not known
     look_alikes: np.ndarray  # M x 4, as the targets
     kinds: list[str]  # M: what they are
 
     @property
     def is_demanded(self) -> np.ndarray:
-        """K: is to be found; the others are neither demanded nor counted."""
+        """K: must be found; the others are neither required nor counted."""
         return self.is_taught & (self.tilt_deg <= STEEPEST_DEG) & (self.legible >= LEAST_LEGIBLE)
 
 
@@ -53,7 +53,7 @@ def letterbox(image: np.ndarray, input_width: int, input_height: int) -> tuple[n
 
 
 def filmed(folder: Path, names: list[str]) -> np.ndarray:
-    """All pictures [N, H, W, 3], mapped from a file that is made at the first call: they need not fit in memory."""
+    """All images [N, H, W, 3], mapped from a file that is made on the first call, so that they need not fit in memory."""
     cache = folder / "pictures.npy"
     if not cache.exists():
         first = cv2.imread(str(folder / "images" / f"{names[0]}.jpg"))
@@ -111,7 +111,7 @@ def crisp_picture(folder: Path, name: str) -> np.ndarray | None:
 
 
 def load(folder: Path, with_legibility: bool = True) -> list[Example]:
-    """with_legibility: takes as long as reading the crisp pictures, for those who ask which targets are legible."""
+    """with_legibility: determines which targets are legible, which takes as long as reading the crisp images."""
     names = sorted(file.stem for file in (folder / "images").glob("*.jpg"))
     if not names:
         raise SystemExit(f"{folder}: no images/*.jpg; make them with geoloc_sim --images N --out {folder}")

@@ -40,7 +40,7 @@ def quality_table(found: list[Found], examples: list[Example], thresholds: list[
 
 
 def sets_table(found: list[Found], sets: dict[str, list[Example]], threshold: float) -> list[str]:
-    """Each set by itself, at one threshold; `found` counts the pictures of one after the other."""
+    """Each set on its own, at one threshold; `found` has the images of all sets in sequence."""
     lines = [
         "| set | " + " | ".join(f"{name_of(size)}: targets | recall | precision" for size in SIZES_PX) + " |",
         "|---" * (1 + 3 * len(SIZES_PX)) + "|",
@@ -81,7 +81,7 @@ def centre_table(errors: CentreErrors) -> list[str]:
 
 
 def wrong_kinds(found: list[Found], examples: list[Example], threshold: float) -> str:
-    """What the wrong boxes lie on, most frequent first."""
+    """The kinds of things that wrong boxes are on, most frequent first."""
     counts: dict[str, int] = {}
     for one in found:
         if one.target >= 0 or not one.counts or one.confidence < threshold:
@@ -95,7 +95,7 @@ def wrong_kinds(found: list[Found], examples: list[Example], threshold: float) -
 
 
 def open_detector(model: Path, alone: bool) -> Detector:
-    """The model, and the one it names for a second look, which lies beside it."""
+    """The model, and the second-look model that it names, which is beside it."""
     network = load_network(model)
     name = metadata(model).get("geoloc_second_look")
     if alone or not name:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the networks as ONNX, the detector in YOLO11's output layout, with nothing in them that OpenCV 4.6 cannot run."""
+"""Writes the networks as ONNX, the detector in YOLO11's output layout, using only what OpenCV 4.6 can run."""
 
 import copy
 import math
@@ -26,7 +26,7 @@ class ExportedDetector(nn.Module):
         super().__init__()
         self.detector = detector
         centres, strides = cells(INPUT_HEIGHT, INPUT_WIDTH)
-        # OpenCV 4.6 does not broadcast constants: each has the full shape of what it meets.
+        # OpenCV 4.6 does not broadcast constants, so each has the full shape of the other operand.
         self.register_buffer("centres", centres[None].contiguous())
         self.register_buffer("strides", strides[None, None].repeat(1, 2, 1).contiguous())
 
@@ -89,7 +89,7 @@ def write(module: nn.Module, example: torch.Tensor, names: tuple[str, str], file
 
 
 def export(detector: TargetDetector, file: Path, centre_sigma_px: tuple[float, float] | None) -> None:
-    """centre_sigma_px: a, b of sigma = hypot(a, b * root of the box's area), an axis, in input pixels."""
+    """centre_sigma_px: a, b of the per-axis sigma hypot(a, b * square root of the box's area), in input pixels."""
     metadata = {"names": str(CLASS_NAMES), "geoloc_second_look": second_look_file(file).name}
     if centre_sigma_px:
         metadata["geoloc_centre_sigma_px"] = ",".join(f"{value:.4f}" for value in centre_sigma_px)

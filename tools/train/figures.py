@@ -15,7 +15,7 @@ MARGIN = (60, 20, 20, 45)  # left, top, right, bottom
 LOWEST = 0.8  # of both axes
 COLOURS = ("#0b6e99", "#c0392b")
 TILE_PX, TILES, COLUMNS = 120, 24, 8
-AROUND = 2.0  # a failure is shown with so many times its own size
+AROUND = 2.0  # a failure is shown with its surroundings, this many times its size
 RED, GREEN = (230, 40, 40), (40, 200, 40)
 
 
@@ -78,7 +78,7 @@ def _tile(image: np.ndarray, box: np.ndarray, colour: tuple[int, int, int], text
 
 
 def failures(found: list[Found], examples: list[Example], threshold: float, least_px: float) -> np.ndarray:
-    """The surest boxes on something else (red, with their confidence), then targets that were missed (green, with
+    """The most confident wrong boxes (red, with their confidence), then missed targets (green, with
     their shorter side), as one picture."""
     wrong = [one for one in found if one.target < 0 and one.counts and one.confidence >= threshold]
     wrong = sorted((one for one in wrong if one.side_px >= least_px), key=lambda one: -one.confidence)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Training patches of the second look: targets and what else the detector proposes, off-centre as it proposes them."""
+"""Training patches for the second look: targets and other things that the detector proposes, off-centre as proposed."""
 
 from dataclasses import dataclass
 
@@ -12,11 +12,11 @@ from dataset import LEAST_LEGIBLE, Example
 from matching import PROPOSED, Network, clipped, detect, hidden, overlap
 from patches import PATCH_PX, answers_for, cut, normalised, resized, squares_around
 
-POSITIVES = 0.4  # share of the patches that show a target,
+POSITIVES = 0.4  # share of the patches that shows a target,
 MINED = 0.25  # a look-alike or bare ground that the detector proposed,
 LOOK_ALIKES = 0.3  # any look-alike; the others: any ground
-MATCHES = 0.4  # overlap from which a proposal is one of a target,
-MISSES = 0.15  # and under which it is none; between the two it is neither right nor wrong
+MATCHES = 0.4  # overlap from which on a proposal belongs to a target,
+MISSES = 0.15  # and below which it does not; in between it is neither right nor wrong
 CENTRE_JITTER = 0.08  # 1-sigma, of the box's size,
 CENTRE_JITTER_PX = 0.7  # and besides
 SIZE_JITTER = 0.15  # 1-sigma of the logarithms of width and height
@@ -24,7 +24,7 @@ SMALLEST_PX = 4.0
 GROUND_SIDES_PX = (8.0, 100.0)
 MOST_PIXELS = 128  # sides of squares that are shrunk before they are degraded
 NOISE = 5.0  # grey levels, at most
-SHARE_COARSE = 0.3  # of the patches, shown as if from farther away,
+SHARE_COARSE = 0.3  # of the patches, shown as if from further away,
 COARSEST_PX = 20  # down to this side
 SHARE_COMPRESSED = 0.15
 JPEG_QUALITY = (25, 70)
@@ -35,7 +35,7 @@ class Look:
     """One place to look at."""
 
     picture: int
-    box: np.ndarray  # centre x, y, width, height [px]: as proposed, or as it is
+    box: np.ndarray  # centre x, y, width, height [px]: as proposed, or the true one
     truth: np.ndarray | None  # the target's box; None where there is no target
 
 
@@ -47,7 +47,7 @@ class Looks:
 
 
 def proposed(network: Network, examples: list[Example]) -> list[np.ndarray]:
-    """For each picture the boxes [K, 4] that the detector proposes, surest first."""
+    """Per image, the boxes [K, 4] that the detector proposes, most confident first."""
     proposals = []
     for example in tqdm(examples, desc="proposals", unit="picture", mininterval=2.0):
         boxes, confidences, _ = detect(network, example.image)
@@ -83,7 +83,7 @@ def jittered(box: np.ndarray, random: np.random.Generator) -> np.ndarray:
 def random_look(
     looks: Looks, examples: list[Example], random: np.random.Generator
 ) -> tuple[Look, np.ndarray]:
-    """A look, and the box that is proposed for it."""
+    """A look and the box that is proposed for it."""
     choice = random.random()
     for share, group in (
         (POSITIVES, looks.targets),
@@ -121,7 +121,7 @@ def degraded(square: np.ndarray, random: np.random.Generator) -> np.ndarray:
 def turned(
     patch: np.ndarray, answer: np.ndarray, random: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
-    """One of the eight ways to lay a patch [H, W, 3] and its answer (off-centre x, y; width, height)."""
+    """One of the eight orientations of a patch [H, W, 3] and its answer (off-centre x, y; width, height)."""
     for axis in (0, 1):
         if random.random() < 0.5:
             patch = patch[:, ::-1] if axis == 0 else patch[::-1]

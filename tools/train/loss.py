@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which predictor answers for which target, and what its answer costs."""
+"""Which predictor is responsible for which target, and the cost of its output."""
 
 import torch
 from torch.nn import functional
 
 from crops import Role
 
-LARGE_PX = 32.0  # targets from here on belong to the stride-16 grid,
-OVERLAP = 1.3  # those within this factor of it to both
+LARGE_PX = 32.0  # targets from this size on belong to the stride-16 grid,
+OVERLAP = 1.3  # those within this factor of it belong to both
 REACH = 0.8  # predictors whose centre is this near the target's (in strides, either axis) answer for it
 SCORE_WEIGHT = 6.0
-LOOK_ALIKE_WEIGHT = 0.2  # of a cell on one: telling them from targets is the second look's work, missing none is this one's
-CENTRE_WEIGHT = 2.0  # geo-location uses the centre alone, so it is paid for once more, beside the overlap
+LOOK_ALIKE_WEIGHT = 0.2  # of a cell on one: the second look tells them from targets, this one must miss none
+CENTRE_WEIGHT = 2.0  # geolocation uses the centre alone, so it has a cost of its own besides that of the overlap
 SIZE_WEIGHT = 0.5
-FOCUS = 1.5  # exponent: cells that are right already cost nearly nothing, which leaves the look-alikes
+FOCUS = 1.5  # exponent: cells that are already right cost almost nothing, which leaves the look-alikes
 
 
 def assign(
@@ -31,7 +31,7 @@ def assign(
 
 
 def covered(targets: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor) -> torch.Tensor:
-    """Which cells [N] lie on any of the targets [K, 4]."""
+    """Which cells [N] are on any of the targets [K, 4]."""
     if not len(targets):
         return torch.zeros(len(strides), dtype=torch.bool)
     off = (centres.T[None] - targets[:, None, :2]).abs()  # [K, N, 2]
@@ -39,7 +39,7 @@ def covered(targets: torch.Tensor, centres: torch.Tensor, strides: torch.Tensor)
 
 
 def intersection_over_union(a: torch.Tensor, b: torch.Tensor) -> torch.Tensor:
-    """Of boxes [..., 4] as left, top, right, bottom, pair by pair."""
+    """IoU of boxes [..., 4] as left, top, right, bottom, pair by pair."""
     overlap = (
         (torch.minimum(a[..., 2:], b[..., 2:]) - torch.maximum(a[..., :2], b[..., :2])).clamp(min=0).prod(-1)
     )
@@ -55,7 +55,8 @@ def corners(centre_size: torch.Tensor) -> torch.Tensor:
 
 def box_loss(predicted: torch.Tensor, truth: torch.Tensor, overlap: torch.Tensor) -> torch.Tensor:
     """Sum over boxes [M, 4] (centre, size) with these overlaps [M]."""
-    # By the root of the size, between pixels, which small targets hardly feel, and sizes, which large ones would not.
+    # Relative to the square root of the size: a compromise between pixels, which would hardly affect small targets,
+    # and sizes, which would hardly affect large ones.
     off_centre = (predicted[:, :2] - truth[:, :2]).abs() / truth[:, 2:].sqrt()
     off_size = (predicted[:, 2:].log() - truth[:, 2:].log()).abs()
     each = 1.0 - overlap + CENTRE_WEIGHT * off_centre.mean(1) + SIZE_WEIGHT * off_size.mean(1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a detector found, set against what is there, for every confidence threshold at once."""
+"""Detections compared with the labels, for all confidence thresholds at once."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -9,16 +9,16 @@ import numpy as np
 from dataset import Example, letterbox
 from patches import boxes_of, cut, judged, normalised, resized, squares_around
 
-LOWEST_CONFIDENCE = 0.05  # nothing below is looked at
-PROPOSED = 0.1  # confidence from which boxes are looked at again, as detection.second_look.confidence is by default
+LOWEST_CONFIDENCE = 0.05  # lower confidences are ignored
+PROPOSED = 0.1  # confidence from which on boxes get a second look, the default of detection.second_look.confidence
 MOST_PROPOSED = 40  # as detection.second_look.max_boxes
-SUPPRESS_OVERLAP = 0.5  # as detection.nms_iou is by default
+SUPPRESS_OVERLAP = 0.5  # the default of detection.nms_iou
 MATCH_OVERLAP = 0.5
 
 
 @dataclass
 class Network:
-    """Something that detects."""
+    """A detector."""
 
     width: int  # of its input
     height: int
@@ -37,9 +37,9 @@ class Found:
     picture: int
     confidence: float
     box: np.ndarray  # centre x, y, width, height [px of the picture]
-    target: int  # of the picture, or -1
-    counts: bool  # False: it matches a target that is neither demanded nor counted
-    sigma_px: float  # of the centre as the detector states it, an axis; NaN where it does not
+    target: int  # index in the image, or -1
+    counts: bool  # False: it matches a target that is neither required nor counted
+    sigma_px: float  # per-axis sigma of the centre as stated by the detector; NaN if it states none
 
     @property
     def side_px(self) -> float:
@@ -64,7 +64,7 @@ def candidates(output: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def suppressed(boxes: np.ndarray) -> list[int]:
-    """Which of the boxes, best first, greedy non-maximum suppression keeps."""
+    """Indices of the boxes, best first, that greedy non-maximum suppression keeps."""
     kept: list[int] = []
     for index, box in enumerate(boxes):
         if not kept or overlap(box, boxes[kept]).max() <= SUPPRESS_OVERLAP:
@@ -73,14 +73,14 @@ def suppressed(boxes: np.ndarray) -> list[int]:
 
 
 def detect(network: Network, image: np.ndarray) -> Boxes:
-    """The same in pixels of the picture; boxes may reach out of it."""
+    """The same in pixels of the image; boxes may extend beyond it."""
     boxed, scale, left, top = letterbox(image, network.width, network.height)
     boxes, scores = candidates(network.run(boxed))
     return (boxes - np.float32([left, top, 0, 0])) / scale, scores, np.full(len(scores), np.nan)
 
 
 def clipped(boxes: np.ndarray, width: int, height: int) -> np.ndarray:
-    """What of boxes [K, 4] is in the picture, as the program tells it."""
+    """The part of boxes [K, 4] inside the image, as the program reports it."""
     low = np.clip(boxes[:, :2] - 0.5 * boxes[:, 2:], 0, (width, height))
     high = np.clip(boxes[:, :2] + 0.5 * boxes[:, 2:], 0, (width, height))
     return np.concatenate((0.5 * (low + high), high - low), 1)
@@ -104,7 +104,7 @@ def detect_twice(network: Network, second_look: SecondLook, image: np.ndarray) -
 
 
 def match(answers: list[Boxes], examples: list[Example]) -> list[Found]:
-    """What a detector answered for each of the pictures, against what is there."""
+    """A detector's output for each image, compared with the labels."""
     found = []
     for picture, (answer, example) in enumerate(zip(answers, examples)):
         free = np.ones(len(example.targets), bool)
@@ -123,7 +123,7 @@ def match(answers: list[Boxes], examples: list[Example]) -> list[Found]:
 
 
 def hidden(box: np.ndarray, example: Example) -> bool:
-    """The box lies on a target that is too small or too much covered to be demanded."""
+    """The box is on a target that is too small or too much covered to be required."""
     off = np.abs(example.targets[~example.is_demanded, :2] - box[:2])
     reach = 0.5 * np.maximum(example.targets[~example.is_demanded, 2:], box[2:])
     return bool((off < reach).all(1).any())

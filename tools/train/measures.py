@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Precision, recall and centre errors from what matching.py found."""
+"""Precision, recall and centre errors from the results of matching.py."""
 
 from dataclasses import dataclass
 
@@ -10,11 +10,11 @@ from matching import Found
 
 SIZES_PX = ((10.0, 16.0), (16.0, np.inf))  # of the shorter side of a box: the two classes that are judged
 LEAST_FOR_FIT = 200  # boxes
-WHOLE = 0.98  # of a target that counts as wholly visible
+WHOLE = 0.98  # of a target that counts as fully visible
 
 
 def demanded(examples: list[Example], size: tuple[float, float]) -> int:
-    """Number of targets whose shorter side is of this size [px] and that are to be found."""
+    """Number of targets whose shorter side is of this size [px] and that must be found."""
     sides = [example.targets[example.is_demanded, 2:].min(1) for example in examples if len(example.targets)]
     return int(sum(((side >= size[0]) & (side < size[1])).sum() for side in sides))
 
@@ -53,15 +53,15 @@ def curve(found: list[Found], examples: list[Example], size: tuple[float, float]
 
 @dataclass
 class CentreErrors:
-    """Of every box that is right, in pixels of the picture."""
+    """Centre errors of every correct box, in pixels of the image."""
 
     error: np.ndarray  # M x 2
     side: np.ndarray  # M: shorter side of the target's box
     box_size: np.ndarray  # M: root of the area of the box that was found
     tilt_deg: np.ndarray  # M
     visible: np.ndarray  # M
-    is_cut: np.ndarray  # M: by the picture's edge; such a box is of the part inside, and so is its centre
-    stated: np.ndarray  # M: sigma as the detector states it [px], NaN: not
+    is_cut: np.ndarray  # M: by the image's edge; such a box and its centre are of the part inside
+    stated: np.ndarray  # M: sigma as stated by the detector [px]; NaN if not stated
 
     def where(self, chosen: np.ndarray) -> "CentreErrors":
         return CentreErrors(*(values[chosen] for values in vars(self).values()))
@@ -70,13 +70,13 @@ class CentreErrors:
         return self.error.mean(0)
 
     def sigma(self) -> np.ndarray:
-        """Root of the mean square about the mean, an axis, without the one in a hundred that is furthest off."""
+        """Per-axis standard deviation without the worst 1 %."""
         off = np.abs(self.error - np.median(self.error, 0))
         kept = self.error[(off <= np.quantile(off, 0.99, axis=0)).all(1)]
         return kept.std(0)
 
     def robust_sigma(self) -> float:
-        """Of both axes together, from the median deviation."""
+        """Sigma of both axes together, from the median deviation."""
         return float(1.4826 * np.median(np.abs(self.error - np.median(self.error, 0))))
 
 
@@ -102,8 +102,8 @@ def centre_errors(found: list[Found], examples: list[Example], threshold: float)
 
 
 def fit_sigma(errors: CentreErrors) -> tuple[float, float] | None:
-    """a, b of sigma = hypot(a, b * box size), an axis, in pixels: fitted to the robust sigma of classes of size;
-    None where there are too few."""
+    """a, b of the per-axis sigma hypot(a, b * box size) in pixels, fitted to the robust sigma of size
+    classes; None if there are too few."""
     if len(errors.side) < LEAST_FOR_FIT:
         return None
     classes = np.quantile(errors.box_size, np.linspace(0.0, 1.0, 11))
@@ -114,5 +114,5 @@ def fit_sigma(errors: CentreErrors) -> tuple[float, float] | None:
         rows.append(np.array([1.0, np.median(members.box_size) ** 2]) / square)  # equal relative errors
         squares.append(1.0)
     squared, *_ = np.linalg.lstsq(np.array(rows), np.array(squares), rcond=None)
-    a, b = np.sqrt(np.maximum(squared, (0.01, 0.0)))  # no detector is better than a tenth of a pixel
+    a, b = np.sqrt(np.maximum(squared, (0.01, 0.0)))  # no detector is assumed better than a tenth of a pixel
     return float(a), float(b)

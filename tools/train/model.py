@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """A small one-stage detector for one class of small objects, fast on a CPU.
 
-It reads a whole 1280 x 720 picture: the first convolution goes down to a quarter at once, which costs little more than
-halving the picture beforehand and loses nothing of it. Two grids of predictors, one every 8 and one every 16 input
-pixels. Each predicts, of the object whose centre is nearest: the centre's offset and the logarithm of width and
-height, both in units of the grid's stride, and a score that is trained to follow the IoU of that very box.
+It reads a whole 1280 x 720 image: the first convolution reduces it to a quarter at once, which costs little more than
+halving the image beforehand and loses nothing. There are two grids of predictors, one every 8 and one every 16 input
+pixels. Each predicts for the object with the nearest centre: the centre's offset and the logarithm of width and height,
+both in units of the grid's stride, and a score that is trained to follow the IoU of that very box.
 """
 
 import torch
@@ -12,7 +12,7 @@ from torch import nn
 
 STRIDES = (8, 16)
 BOX_VALUES = 4  # dx, dy, log width, log height
-COARSEST_STRIDE = 32  # of the features; height and width of an image must be multiples of it
+COARSEST_STRIDE = 32  # of the features; an image's height and width must be multiples of it
 LARGEST_LOG_SIZE = 5.0  # keeps exp() finite early in training
 
 

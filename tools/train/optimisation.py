@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""How both networks are led to their weights."""
+"""Training of both networks."""
 
 import copy
 import math
@@ -26,7 +26,7 @@ def rate_at(peak: float, step: int, steps: int) -> float:
 
 
 def ahead(make: Callable[[int], Any], count: int) -> Iterator[Any]:
-    """make(0), make(1), ... in order, each made while the one before is in use."""
+    """make(0), make(1), ... in order, each made while the previous one is in use."""
     with ThreadPoolExecutor(1) as executor:
         following = executor.submit(make, 0)
         for index in range(count):
@@ -37,7 +37,7 @@ def ahead(make: Callable[[int], Any], count: int) -> Iterator[Any]:
 
 
 class Run:
-    """A training run, resumable after every epoch: all that its checkpoint holds."""
+    """A training run that can be resumed after every epoch: everything in its checkpoint."""
 
     def __init__(self, model: nn.Module, peak_rate: float, epochs: int, batches: int, seed: int, bfloat16: bool):
         self.model, self.peak_rate, self.epochs, self.batches = model, peak_rate, epochs, batches
@@ -62,7 +62,7 @@ class Run:
         self.epoch = state["epoch"]
 
     def run_epoch(self, batch_of: Callable[[int], Any], loss_of: Callable[[Any], torch.Tensor]) -> None:
-        """One step for each batch; loss_of() runs the model in bfloat16 where that is asked for."""
+        """One step per batch; loss_of() runs the model in bfloat16 if requested."""
         self.model.train()
         progress = tqdm(range(self.batches), desc=f"epoch {self.epoch + 1}/{self.epochs}", mininterval=2.0)
         for index, batch in zip(progress, ahead(batch_of, self.batches)):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the second look is given of a picture: the surroundings of a box, all of one size and one exposure; and what is
-made of its answers. src/io/detection/patch.cpp does the same."""
+"""The second look's input, the surroundings of a box at one size and one exposure, and the interpretation of its output.
+src/io/detection/patch.cpp does the same."""
 
 from collections.abc import Callable
 
@@ -8,11 +8,11 @@ import cv2
 import numpy as np
 
 PATCH_PX = 48
-SURROUNDINGS = 2.0  # a patch shows so many times the longer side of a box
+SURROUNDINGS = 2.0  # a patch shows this many times the longer side of a box
 LEAST_SIDE_PX = 16  # of the square that a patch shows
 LUMA = np.float32([0.299, 0.587, 0.114])  # shares of red, green, blue
-IN_DOUBT = (0.05, 0.98)  # scores in between are asked for twice more, of the mirrored patch
-LEAST_CONTRAST = 2.0  # grey levels: a patch with less is not stretched further, it would show noise alone
+IN_DOUBT = (0.05, 0.98)  # for scores in between, the mirrored patches are evaluated too
+LEAST_CONTRAST = 2.0  # grey levels: a patch with less is not stretched further, as it would show only noise
 
 
 def squares_around(boxes: np.ndarray, image: np.ndarray) -> np.ndarray:
@@ -23,7 +23,7 @@ def squares_around(boxes: np.ndarray, image: np.ndarray) -> np.ndarray:
 
 
 def cut(image: np.ndarray, square: np.ndarray) -> np.ndarray:
-    """The square of the image; outside of it, the pixels of its edge go on."""
+    """The square of the image; outside of the image, its edge pixels are repeated."""
     left, top, side = square
     height, width = image.shape[:2]
     inside = image[max(top, 0) : top + side, max(left, 0) : left + side]
@@ -45,7 +45,7 @@ def resized(square: np.ndarray, size: int = PATCH_PX) -> np.ndarray:
 
 
 def normalised(patch: np.ndarray) -> np.ndarray:
-    """[H, W, 3] of any type to [3, H, W]: each channel 0 in the mean, the brightness with a standard deviation of 1."""
+    """[H, W, 3] of any type to [3, H, W]: each channel with mean 0, and the brightness with standard deviation 1."""
     pixels = patch.astype(np.float32)
     contrast = max(float((pixels @ LUMA).std()), LEAST_CONTRAST)
     return ((pixels - pixels.mean((0, 1))) / contrast).transpose(2, 0, 1)
@@ -64,8 +64,8 @@ def answers_for(boxes: np.ndarray, squares: np.ndarray) -> np.ndarray:
 
 
 def judged(patches: np.ndarray, second_look: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """Answers [K, 6] to patches [K, 3, 48, 48]. Where the score leaves a doubt, the mean of three: to the patch, and to it
-    mirrored either way; of the scores their logits, size and sigma as of the plain patch."""
+    """Answers [K, 6] to patches [K, 3, 48, 48]. If the score is doubtful, the mean over the patch and its two mirror
+    images: of the scores' logits and of the centres, with size and sigma of the plain patch."""
     answers = second_look(patches)
     doubtful = np.flatnonzero((answers[:, 0] > IN_DOUBT[0]) & (answers[:, 0] < IN_DOUBT[1]))
     if len(doubtful):
@@ -80,7 +80,7 @@ def judged(patches: np.ndarray, second_look: Callable[[np.ndarray], np.ndarray])
 
 
 def in_batches(patches: np.ndarray, at_once: int, run: Callable[[np.ndarray], np.ndarray]) -> np.ndarray:
-    """run() for all patches, of a network that takes exactly so many at once."""
+    """run() for all patches, with a network that takes exactly `at_once` of them."""
     padded = np.concatenate((patches, np.zeros((-len(patches) % at_once, *patches.shape[1:]), np.float32)))
     return np.concatenate([run(part) for part in np.split(padded, len(padded) // at_once)])[: len(patches)]
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# tools/train/reproduce.sh [OUT]: pictures, training and the figures of docs/model.md, from a checkout that is built
-# (build/release/bin/geoloc_sim exists). OUT (out/model) takes 27 GB. What exists there is kept: an interrupted run goes on.
+# tools/train/reproduce.sh [OUT]: images, training and the figures of docs/model.md, from a built checkout
+# (build/release/bin/geoloc_sim exists). OUT (out/model) takes 27 GB. Files that exist there are kept, so an interrupted run
+# continues.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$ROOT"
@@ -18,7 +19,7 @@ pictures train_far 1300 5 train "35 85"
 pictures validation 160 501 train
 for seed in 9001 9002 9003; do pictures "held_back_$seed" 300 "$seed" held-back; done
 
-export OMP_WAIT_POLICY=passive  # threads that spin while they wait take a busy machine's time from each other
+export OMP_WAIT_POLICY=passive  # spinning threads would take time from each other on a busy machine
 BFLOAT16=$(grep -qm1 avx512_bf16 /proc/cpuinfo && echo --bfloat16 || true)
 python=$OUT/venv/bin/python
 [ -f "$OUT/fiducial.onnx" ] || "$python" tools/train/train.py --train "$OUT"/train_[1-4] --validation "$OUT/validation" \

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The network that looks once more, and closer, at each box that the detector proposes."""
+"""The network that looks again, and closer, at each box that the detector proposes."""
 
 import torch
 from torch import nn
@@ -28,8 +28,8 @@ class Block(nn.Module):
 
 
 class SecondLook(nn.Module):
-    """Patches [B, 3, 48, 48] as patches.normalised() makes them to [B, 6]: the score (a logit); the centre, off that of
-    the patch, in its sides; the logarithms of width, height and of the centre's sigma, likewise in its sides."""
+    """Patches [B, 3, 48, 48] as patches.normalised() makes them to [B, 6]: the score (a logit); the offset of the centre
+    from that of the patch, in its sides; the logarithms of width, height and of the centre's sigma, in the same unit."""
 
     def __init__(self) -> None:
         super().__init__()

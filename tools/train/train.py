@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Trains the target detector on pictures of `geoloc_sim --images`, from scratch, on a CPU."""
+"""Trains the target detector on images of `geoloc_sim --images`, from scratch, on a CPU."""
 
 import argparse
 from pathlib import Path
@@ -20,7 +20,7 @@ CROP_PX = 320
 BATCH = 32
 PEAK_RATE = 3e-3
 
-THRESHOLDS = (0.05, 0.1, 0.2, 0.4)  # at which the progress is reported
+THRESHOLDS = (0.05, 0.1, 0.2, 0.4)  # at which progress is reported
 
 
 def train_epoch(run: Run, examples: list[Example]) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Trains the network that looks once more at what the detector proposes, from scratch, on a CPU."""
+"""Trains the second-look network on what the detector proposes, from scratch, on a CPU."""
 
 import argparse
 import math
@@ -23,7 +23,7 @@ BATCHES_AN_EPOCH = 200
 PEAK_RATE = 3e-3
 SIZE_WEIGHT = 0.3  # a score and a centre, in pixels of the patch, cost 1
 SIGMA_STEPS, SIGMA_RATE = 150, 1e-2
-USUAL_SIGMA = 0.01  # of the side of a patch: where learning it begins
+USUAL_SIGMA = 0.01  # of the side of a patch: the initial value
 VALIDATION_LOOKS = 4096
 
 
@@ -51,7 +51,7 @@ def train_epoch(run: Run, looks: Looks, examples: list[Example]) -> None:
 
 
 def learn_sigma(model: SecondLook, looks: Looks, examples: list[Example], seed: int) -> None:
-    """Last of all, from the errors of the network as it then is: what states its errors must not cause any."""
+    """Trains the sigma last, from the errors of the finished network, so that stating errors does not cause any."""
     random = np.random.default_rng((seed, SIGMA_STEPS))
     weight = torch.zeros(model.answer[-1].in_features, requires_grad=True)
     bias = torch.tensor(math.log(USUAL_SIGMA), requires_grad=True)
@@ -74,7 +74,7 @@ def learn_sigma(model: SecondLook, looks: Looks, examples: list[Example], seed: 
 
 
 def answers_to(model: SecondLook, looks: Looks, examples: list[Example]) -> tuple[np.ndarray, ...]:
-    """To the same patches every time: answers [K, 6], whether each shows a target [K], and where it is [K, 4]."""
+    """For the same patches every time: answers [K, 6], whether each shows a target [K], and where it is [K, 4]."""
     patches, is_target, truth = training_looks(
         looks, examples, VALIDATION_LOOKS, np.random.default_rng(0)
     )
@@ -92,7 +92,7 @@ def report(answers: np.ndarray, is_target: np.ndarray, truth: np.ndarray) -> str
 
 
 def sigma_factor(answers: np.ndarray, is_target: np.ndarray, truth: np.ndarray) -> float:
-    """By how much the errors of unseen targets are larger than stated, in the median."""
+    """The median ratio of actual to stated errors on unseen targets."""
     off = answers[is_target, 1:3] - truth[is_target, :2]
     return float(1.4826 * np.median(np.abs(off) / np.exp(answers[is_target, 5:])))
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "geoloc/tracking/gaussian.hpp"
@@ -12,12 +14,12 @@ namespace geoloc {
 struct Score {
   int targets = 0;
   int objects = 0;
-  int found = 0;                      ///< targets with an object of their own within 3 m
-  int extra = 0;                      ///< objects without a target
-  int merged_pairs = 0;               ///< a target without an object beside one whose object stands for both
-  double rmse_m = 0.0;                ///< over the targets found; 0 where there is none
-  double relative_rmse_m = 0.0;       ///< the same with the run's mean offset removed
-  std::vector<int> target_of_object;  ///< index, or -1
+  int found = 0;                 ///< targets with an object of their own within 3 m
+  int extra = 0;                 ///< objects without a target
+  int merged_pairs = 0;          ///< a target without an object beside one whose object stands for both
+  double rmse_m = 0.0;           ///< over the targets found; 0 where there is none
+  double relative_rmse_m = 0.0;  ///< the same with the run's mean offset removed
+  std::vector<std::optional<std::size_t>> target_of_object;  ///< nullopt: none
 };
 
 /// Objects are matched one-to-one to targets at minimum total distance; pairs over 3 m do not count. East,
@@ -27,6 +29,6 @@ Score score_objects(const std::vector<Eigen::Vector2d>& objects, const std::vect
 /// Mean over the matched objects of the squared error in units of the stated covariance (NEES); 2 where the
 /// covariance is right, 0 where nothing was matched.
 double mean_nees(const std::vector<Gaussian2>& objects, const std::vector<Eigen::Vector2d>& targets,
-                 const std::vector<int>& target_of_object);
+                 const std::vector<std::optional<std::size_t>>& target_of_object);
 
 }  // namespace geoloc

@@ -12,16 +12,16 @@
 
 namespace geoloc::io {
 
-/// Whether a name stands for a file or for nothing yet, not for a device or a pipe.
+/// Whether a name is that of a file or is unused, rather than that of a device or a pipe.
 inline bool is_file_or_none(const std::filesystem::path& name) {
   std::error_code ignored;
   const auto type = std::filesystem::status(name, ignored).type();
   return type == std::filesystem::file_type::not_found || type == std::filesystem::file_type::regular;
 }
 
-/// Writes the file beside its place and renames it: readers see the old content or the new, never half. A
-/// device or a pipe is written to as it is. Throws std::runtime_error naming the file and the system's
-/// reason.
+/// Writes the file under a temporary name beside its own and renames it: readers see either the old content
+/// or the new. Devices and pipes are written to directly. Throws std::runtime_error naming the file and the
+/// system's reason.
 inline void write_file_atomically(const std::filesystem::path& file, std::string_view content) {
   std::optional<PartialFile> beside;
   if (is_file_or_none(file)) beside.emplace(file);

@@ -17,7 +17,7 @@ struct Endpoint {
   std::uint16_t port = 0;
 };
 
-/// Of names and of IPv4 addresses.
+/// Whether a character may occur in a host name or an IPv4 address.
 inline bool is_host_character(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-';
 }
@@ -31,7 +31,7 @@ inline std::optional<std::uint16_t> parse_port(const std::string& text) {
   return port;
 }
 
-/// The host of "HOST" or "[IPV6]": not empty, and right by its characters; nobody is asked whether it exists.
+/// The host of "HOST" or "[IPV6]": not empty and made of valid characters. It is not looked up.
 inline std::optional<std::string> parse_host(const std::string& text) {
   const bool is_bracketed = text.size() > 2 && text.front() == '[' && text.back() == ']';
   std::string host = is_bracketed ? text.substr(1, text.size() - 2) : text;
@@ -42,7 +42,7 @@ inline std::optional<std::string> parse_host(const std::string& text) {
   return host;
 }
 
-/// "HOST:PORT", "[IPV6]:PORT", or "PORT" where there is a host to take then. nullopt for anything else.
+/// "HOST:PORT", "[IPV6]:PORT", or "PORT" if there is a default host. nullopt for anything else.
 inline std::optional<Endpoint> parse_endpoint(const std::string& text,
                                               std::optional<std::string> host_of_port_alone = std::nullopt) {
   const std::size_t colon = text.rfind(':');

@@ -7,9 +7,9 @@
 
 namespace geoloc::io {
 
-/// Reads the host clock: UTC at construction, carried on by the monotonic clock, in whole microseconds,
-/// because that is what recordings store and a replay is to see the very same times. Make one per program and
-/// pass it along.
+/// Reads the host clock: UTC at construction, advanced by the monotonic clock. It gives whole microseconds,
+/// because recordings store those and a replay must see the same times. Make one per program and pass it
+/// along.
 class HostClock {
  public:
   HostClock() : HostClock(std::chrono::system_clock::now(), std::chrono::steady_clock::now()) {}

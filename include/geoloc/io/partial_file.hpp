@@ -18,8 +18,8 @@ namespace geoloc::io {
       file.string() + ": cannot be written: " + std::generic_category().message(error != 0 ? error : EIO));
 }
 
-/// The name of a file while it is written, beside its place: readers see the old content or the new, never
-/// half. What is not committed is not left behind.
+/// The temporary name of a file while it is written, beside its own: readers see either the old content or
+/// the new. A file that is not committed is removed.
 class PartialFile {
  public:
   explicit PartialFile(std::filesystem::path file) : file_(std::move(file)), name_(file_) {
@@ -32,10 +32,10 @@ class PartialFile {
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
-  /// To write to, and to close before commit().
+  /// The name to write to; close the file before commit().
   const std::filesystem::path& name() const { return name_; }
 
-  /// The file is whole: it takes its place. Throws as fail_to_write() does.
+  /// The file is complete: renames it to its own name. Throws as fail_to_write() does.
   void commit() {
     std::error_code error;
     std::filesystem::rename(name_, file_, error);

@@ -4,17 +4,22 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
-#include <variant>
 #include <vector>
 
+#include "geoloc/calibration/calibration.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
-#include "geoloc/state/state_provider.hpp"
-#include "geoloc/tracking/joint_tracker.hpp"
-#include "geoloc/tracking/paper_tracker.hpp"
+#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/state/samples.hpp"
+#include "geoloc/state/vehicle_state.hpp"
+#include "geoloc/tracking/known_points.hpp"
+#include "geoloc/tracking/track.hpp"
 
 namespace geoloc {
+
+class StateProvider;
 
 /// The whole estimator, and the one class that an autopilot links: telemetry and detections in, objects out.
 ///
@@ -34,13 +39,16 @@ class Geolocator {
 
   /// Throws std::invalid_argument naming every problem of the configuration.
   explicit Geolocator(const GeolocatorConfig& config);
+  ~Geolocator();
+  Geolocator(Geolocator&&) noexcept;
+  Geolocator& operator=(Geolocator&&) noexcept;
 
   /// Samples may come in any order and at any rate; what cannot be used is counted (state().counters()).
-  void add(const AttitudeSample& sample) { state_.add(sample); }
-  void add(const PositionSample& sample) { state_.add(sample); }
+  void add(const AttitudeSample& sample);
+  void add(const PositionSample& sample);
 
   /// The vehicle's clock began anew. Needed only where the caller knows before three samples have shown it.
-  void on_vehicle_reboot() { state_.restart(); }
+  void on_vehicle_reboot();
 
   /// Whether a frame of that time can be processed now (nullopt), or why not. On NoState::kNotYet it is worth
   /// waiting.
@@ -56,39 +64,27 @@ class Geolocator {
 
   /// The last located frame: every detection that met the ground, the state and the camera's pose it was
   /// located with.
-  const std::vector<LocatedDetection>& located() const { return located_; }
-  const FrameView& view() const { return view_; }
+  const std::vector<LocatedDetection>& located() const;
+  const FrameView& view() const;
 
   /// What was learnt of the constant errors; nullopt where the method learns none.
   std::optional<Calibration> calibration() const;
 
   /// What became of the known points, in the order of the configuration; empty where the method uses none.
-  const std::vector<KnownPoints::Entry>& known_points() const;
+  const std::vector<KnownPointReport>& known_points() const;
 
   /// The frame of all positions; set by the first position of the vehicle.
-  const std::optional<LocalFrame>& local_frame() const { return state_.local_frame(); }
+  const std::optional<LocalFrame>& local_frame() const;
 
-  const GeolocatorConfig& config() const { return config_; }
-  const StateProvider& state() const { return state_; }
-  const Projector& projector() const { return projector_; }
+  const GeolocatorConfig& config() const;
+  const StateProvider& state() const;
+  const Projector& projector() const;
   const TrackCounters& track_counters() const;
-  const Counters& counters() const { return counters_; }
+  const Counters& counters() const;
 
  private:
-  Duration latency() const;
-  Rigid3d calibrated_camera_pose(const VehicleState& vehicle) const;
-  void place_known_points();
-  void select(const std::vector<Detection>& detections);
-  void locate();
-
-  GeolocatorConfig config_;
-  StateProvider state_;
-  Projector projector_;
-  std::variant<PaperTracker, JointTracker> tracker_;
-  FrameView view_;
-  std::vector<Detection> selected_;
-  std::vector<LocatedDetection> located_;
-  Counters counters_;
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
 };
 
 }  // namespace geoloc

@@ -7,10 +7,10 @@
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
-#include "geoloc/state/state_provider.hpp"
+#include "geoloc/state/vehicle_state.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "geoloc/tracking/known_points.hpp"
-#include "geoloc/tracking/paper_tracker.hpp"
+#include "geoloc/tracking/paper_tracker_config.hpp"
 
 namespace geoloc {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "geoloc/camera/camera.hpp"
-#include "geoloc/state/state_provider.hpp"
+#include "geoloc/state/vehicle_state.hpp"
 
 namespace geoloc {
 

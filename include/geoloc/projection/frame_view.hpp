@@ -4,7 +4,7 @@
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/geometry/rigid3.hpp"
 #include "geoloc/projection/projector.hpp"
-#include "geoloc/state/state_provider.hpp"
+#include "geoloc/state/vehicle_state.hpp"
 
 namespace geoloc {
 

@@ -8,16 +8,9 @@
 #include "geoloc/geometry/expected.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/state/interpolation.hpp"
+#include "geoloc/state/vehicle_state.hpp"
 
 namespace geoloc {
-
-/// Why there is no state at a time.
-enum class NoState {
-  kNotYet,    ///< newer than the newest sample: ask again when more have come
-  kTooOld,    ///< older than the oldest sample kept
-  kInAGap,    ///< between two samples that lie too far apart
-  kNoSamples  ///< nothing has come yet
-};
 
 /// The two samples around a time.
 template <typename T>

@@ -4,39 +4,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "geoloc/geometry/geodetic.hpp"
-#include "geoloc/geometry/rigid3.hpp"
 #include "geoloc/state/boot_clock_monitor.hpp"
 #include "geoloc/state/samples.hpp"
 #include "geoloc/state/state_buffer.hpp"
+#include "geoloc/state/vehicle_state.hpp"
 
 namespace geoloc {
-
-enum class AttitudeInterpolation {
-  kCircular,  ///< roll, pitch and yaw each by itself (paper, eq. 5)
-  kSlerp      ///< the shortest rotation
-};
-
-struct StateConfig {
-  AttitudeInterpolation attitude_interpolation = AttitudeInterpolation::kSlerp;
-  double max_gap_s = 0.6;              ///< a longer hole in the telemetry gives no state
-  double max_extrapolation_s = 0.005;  ///< beyond the newest sample; more is guessing
-
-  std::vector<std::string> problems() const;
-};
-
-/// Where the vehicle was at one instant.
-struct VehicleState {
-  VehicleTime time;
-  Rigid3d enu_from_body;                                      ///< up is the height above home
-  Eigen::Vector3d velocity_in_enu = Eigen::Vector3d::Zero();  ///< [m/s], of the interpolation's segment
-  Eigen::Vector3d angular_velocity_in_body =
-      Eigen::Vector3d::Zero();               ///< [rad/s], of the interpolation's segment
-  std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
-};
 
 /// Position in the local frame with the turn of true north there.
 struct LocalPosition {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
@@ -14,14 +15,14 @@ namespace geoloc {
 /// pairs' costs where every row left alone counts max_cost. Keeps its storage between calls.
 class AssignmentSolver {
  public:
-  static constexpr int kUnassigned = -1;
+  static constexpr std::size_t kUnassigned = std::numeric_limits<std::size_t>::max();
 
   /// Room for problems of this size without further allocation.
   void reserve(int rows, int columns);
 
   /// costs(row, column); max_cost finite. Returns the column of each row, or kUnassigned. The reference holds
   /// until the next call.
-  const std::vector<int>& solve(const Eigen::Ref<const Eigen::MatrixXd>& costs, double max_cost);
+  const std::vector<std::size_t>& solve(const Eigen::Ref<const Eigen::MatrixXd>& costs, double max_cost);
 
  private:
   void augment(const Eigen::Ref<const Eigen::MatrixXd>& costs, bool transposed, double max_cost, int row,
@@ -29,7 +30,8 @@ class AssignmentSolver {
 
   // 1-based in the columns: column 0 stands for the row being placed.
   std::vector<double> row_potential_, column_potential_, shortest_;
-  std::vector<int> row_of_column_, previous_column_, column_of_row_;
+  std::vector<int> row_of_column_, previous_column_;
+  std::vector<std::size_t> column_of_row_;
   std::vector<char> visited_;
 };
 

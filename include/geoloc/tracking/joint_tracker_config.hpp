@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geoloc/calibration/calibration.hpp"
-#include "geoloc/calibration/drift.hpp"
+#include "geoloc/calibration/drift_config.hpp"
 
 namespace geoloc {
 

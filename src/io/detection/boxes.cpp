@@ -9,7 +9,7 @@
 namespace geoloc::io {
 namespace {
 
-/// Suppression compares pairs, so a network gone wrong must not give it tens of thousands of boxes.
+/// Suppression compares pairs, so a faulty network must not give it tens of thousands of boxes.
 constexpr std::size_t kMaxCandidates = 2000;
 
 bool is_inside(const Box& box, ImageSize picture) {

@@ -10,15 +10,16 @@
 
 namespace geoloc::io {
 
-/// Greedy: from the most confident box on, each one stays that does not overlap one of its class that stayed,
+/// Greedy suppression: in order of confidence, keeps each box that does not overlap a kept one of its class,
 /// up to the configuration's max_detections.
 std::vector<Detection> suppress_overlaps(std::vector<Detection> boxes, const DetectionConfig& config);
 
-/// What of it is in the picture; nullopt where that is nothing.
+/// The part of the box inside the picture; nullopt if there is none.
 std::optional<Box> clipped(const Box& box, ImageSize picture);
 
-/// What Detection::sigma_px is to say of the centre of a box before it is cut off at the picture's edge: 0
-/// (not stated) where it will be, as its centre is then another than the object's, and for what is no number.
+/// Detection::sigma_px for the centre of a box that has not been clipped to the picture yet. It is 0 (not
+/// stated) for a box that will be clipped, because its centre is then not the object's, and for a sigma that
+/// is no number.
 double stated_sigma_px(double sigma_px, const Box& whole, ImageSize picture);
 
 }  // namespace geoloc::io

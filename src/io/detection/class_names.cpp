@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kMostClasses = 100'000;
 
-/// Reads the little of Python's syntax that a dictionary of names needs.
+/// Reads the part of Python's syntax that a dictionary of names needs.
 class DictionaryReader {
  public:
   explicit DictionaryReader(std::string_view text) : rest_(text) {}
@@ -48,7 +48,7 @@ class DictionaryReader {
         return text;
       }
       if (rest_[i] == '\\' && i + 1 < rest_.size())
-        ++i;  // names need no escapes but \' \" and a backslash itself
+        ++i;  // names need only the escapes \' \" and \\
       text += rest_[i];
     }
     return std::nullopt;

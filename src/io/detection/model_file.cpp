@@ -23,7 +23,7 @@ std::vector<char> read_file(const std::filesystem::path& file) {
   return bytes;
 }
 
-/// What the file leaves open is the configuration's to say.
+/// The configuration sets what the file leaves open.
 ImageSize input_size(const std::filesystem::path& file, const OnnxMetadata& metadata,
                      const DetectionConfig& config) {
   if (metadata.inputs.size() != 1) {

@@ -11,7 +11,7 @@
 
 namespace geoloc::io {
 
-/// What a network is given.
+/// Kind of input that a network takes.
 enum class InputKind {
   kPicture,  ///< one, 8 bits, BGR; the back end makes it RGB in 0..1
   kNumbers   ///< 32-bit floats, as they are
@@ -27,16 +27,17 @@ struct ModelFile {
   ImageSize input;  ///< the file's, or the configuration's where the file leaves it open
 };
 
-/// Of a detector. Each throws std::runtime_error naming the file, the fault and the remedy.
+/// Reads the file of a detector. Each of these throws std::runtime_error naming the file, the fault and the
+/// remedy.
 ModelFile read_detector_file(const std::filesystem::path& file, const DetectionConfig& config);
 
-/// Of a network for second looks: it takes square patches, several at once.
+/// Reads the file of a second-look network, which takes several square patches at once.
 ModelFile read_second_look_file(const std::filesystem::path& file);
 
 /// Its metadata alone.
 OnnxMetadata read_model_metadata(const std::filesystem::path& file);
 
-/// A name a line. Throws std::runtime_error naming the file where it cannot be read or names no class.
+/// Reads one name per line. Throws std::runtime_error naming the file if it cannot be read or names no class.
 std::vector<std::string> read_class_names(const std::filesystem::path& file);
 
 /// Throws std::runtime_error: "FILE: FAULT".
@@ -45,7 +46,7 @@ std::vector<std::string> read_class_names(const std::filesystem::path& file);
 /// "[1, 3, ?, 640]".
 std::string shape_text(const std::vector<std::int64_t>& shape);
 
-/// Lines joined, and the end left out where there is much of it: a back end's words within ours.
+/// Joins lines and truncates long texts, to quote a back end's message within ours.
 std::string one_line(std::string reason);
 
 }  // namespace geoloc::io

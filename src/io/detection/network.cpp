@@ -35,7 +35,7 @@ void check_shape(const ModelFile& model, const std::vector<std::int64_t>& shape,
   network.candidates = static_cast<int>(shape[2]);
 }
 
-/// The shape of what it makes of nothing in particular. What that is does not matter, but it must be numbers.
+/// The shape of the output for a plain input. Its values do not matter, but they must be numbers.
 std::vector<std::int64_t> try_out(const ModelFile& model, Network& network) {
   const cv::Mat output = network.run(plain_input(model));
   const auto* values = output.ptr<float>();

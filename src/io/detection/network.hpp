@@ -15,17 +15,16 @@
 
 namespace geoloc::io {
 
-/// What YOLO networks are trained to see as no picture.
+/// The grey that YOLO networks are trained to see as outside of the picture.
 inline const cv::Scalar kLetterboxGrey = cv::Scalar::all(114);
 
-/// A network in the hands of a back end.
+/// A network loaded by a back end.
 class Network {
  public:
   virtual ~Network() = default;
 
   /// `input`: of the model's InputKind and of the size of its input; numbers as [batch, 3, height, width].
-  /// The output, 32-bit floats, stays valid until the next call. Throws std::exception where the back end
-  /// fails.
+  /// The output, 32-bit floats, stays valid until the next call. Throws std::exception if the back end fails.
   virtual cv::Mat run(const cv::Mat& input) = 0;
 
  protected:
@@ -38,7 +37,7 @@ class Network {
 std::unique_ptr<Network> load_with_opencv(const ModelFile& model);
 std::unique_ptr<Network> load_with_openvino(const ModelFile& model, int threads);
 
-/// A detection network that was loaded, run once and found to be one.
+/// A detection network that was loaded, checked and run once.
 struct DetectionNetwork {
   std::unique_ptr<Network> network;
   ImageSize input;
@@ -60,7 +59,7 @@ struct SecondLookNetwork {
 
 SecondLookNetwork load_second_look(const std::filesystem::path& file, const DetectionConfig& config);
 
-/// What a model may be tried with before there is a picture: plain grey, or zeros.
+/// An input to try a model with before there is a picture: plain grey, or zeros.
 cv::Mat plain_input(const ModelFile& model);
 
 }  // namespace geoloc::io

@@ -7,7 +7,7 @@
 
 #include "protobuf_fields.hpp"
 
-// The numbers of the fields are those of onnx/onnx.proto.
+// Field numbers are those of onnx/onnx.proto.
 namespace geoloc::io {
 namespace {
 
@@ -19,7 +19,7 @@ bool for_each_field(std::string_view message, Visit visit) {
   return !reader.is_malformed();
 }
 
-/// The last one of that number counts, as protobuf has it; empty where there is none.
+/// The last field with that number counts, as in protobuf; empty if there is none.
 std::string_view bytes_field(std::string_view message, std::uint64_t number) {
   std::string_view found;
   for_each_field(message, [&](const ProtobufField& field) {

@@ -10,7 +10,7 @@
 namespace geoloc::io {
 namespace {
 
-/// The network for second looks: the one that was asked for, or the one that the model names. Empty: none.
+/// The second-look network: the one configured, or the one that the model names. Empty: none.
 std::filesystem::path second_look_file(const DetectorFiles& files) {
   if (files.second_look) return *files.second_look;
   const auto properties = read_model_metadata(files.model).properties;
@@ -23,9 +23,10 @@ std::filesystem::path second_look_file(const DetectorFiles& files) {
   std::error_code error;
   const auto beside = files.model.parent_path() / name;
   if (std::filesystem::exists(beside, error)) return beside;
-  refuse_model(files.model, "needs " + name.string() +
-                                " beside it for a second look at what it finds: put it there, or "
-                                "do without (--second-look none), which finds more that is not there");
+  refuse_model(files.model,
+               "needs " + name.string() +
+                   " beside it for the second look: put it there, or "
+                   "turn the second look off (--second-look none), which gives more false detections");
 }
 
 }  // namespace

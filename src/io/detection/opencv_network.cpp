@@ -9,7 +9,7 @@
 namespace geoloc::io {
 namespace {
 
-/// OpenCV logs what it throws; here that is told once, in our words.
+/// Silences OpenCV's log: it logs what it throws, which is reported once in our words.
 class QuietOpencv {
  public:
   QuietOpencv() : level_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
@@ -21,11 +21,11 @@ class QuietOpencv {
   cv::utils::logging::LogLevel level_;
 };
 
-/// As of 4.8 OpenCV runs what ultralytics exports. 4.6 fails at it. 4.7 does not always, but both take a
-/// Split into given sizes for one into equal parts (opencv/opencv#23482): wrong results, not an error.
+/// OpenCV runs ultralytics' exports from 4.8 on. 4.6 fails on them and 4.7 on some. Both take a Split into
+/// given sizes for one into equal parts (opencv/opencv#23482), which gives wrong results instead of an error.
 constexpr bool kRunsExports = CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 8);
 
-/// What makes the model run with an OpenCV that runs no exports.
+/// The remedy for an OpenCV that cannot run exports.
 std::string conversion_of(const ModelFile& model) {
   const bool is_open = model.metadata.inputs.front().shape[2] == kUnknownLength;
   const std::string size = is_open ? " --input-size " + std::to_string(model.input.width_px) + " " +
@@ -63,7 +63,7 @@ class OpencvNetwork final : public Network {
  private:
   cv::dnn::Net net_;
   InputKind kind_;
-  cv::Mat numbers_;  // of the picture
+  cv::Mat numbers_;  // of the input picture
 };
 
 }  // namespace

@@ -25,7 +25,8 @@ void take_pictures(ov::preprocess::PrePostProcessor& steps) {
   steps.input().model().set_layout("NCHW");
 }
 
-/// The model between what the file's InputKind says and 32-bit floats, whatever its own types.
+/// The model with an input as the file's InputKind says and an output of 32-bit floats, whatever its own
+/// types.
 std::shared_ptr<ov::Model> with_input_of(const ModelFile& file, const std::shared_ptr<ov::Model>& model) {
   model->reshape(ov::PartialShape{file.batch, 3, file.input.height_px, file.input.width_px});
   ov::preprocess::PrePostProcessor steps(model);
@@ -63,7 +64,7 @@ class OpenvinoNetwork final : public Network {
   }
 
  private:
-  /// Of the input's own memory.
+  /// A tensor that shares the input's memory.
   ov::Tensor tensor_of(const cv::Mat& input) const {
     if (kind_ == InputKind::kNumbers)
       return {ov::element::f32, ov::Shape{input.size.p, input.size.p + input.dims}, input.data};

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kSurroundings = 2.0;
 constexpr double kLeastSide_px = 16.0;
-constexpr double kLeastContrast = 2.0;  // grey levels: what has less is noise, and is not stretched
+constexpr double kLeastContrast = 2.0;  // grey levels: less contrast is noise, and is not stretched
 constexpr double kSurelyNone = 0.05;
 constexpr double kSurelyOne = 0.98;
-constexpr double kLeastScore = 1e-6;              // scores nearer to 0 and 1 say no more
+constexpr double kLeastScore = 1e-6;              // scores nearer to 0 and 1 carry no more information
 const cv::Matx13f kLuma{0.114F, 0.587F, 0.299F};  // shares of blue, green and red
 
 int rounded(double value) {

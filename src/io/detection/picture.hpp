@@ -5,7 +5,7 @@
 
 namespace geoloc::io {
 
-/// In three channels; empty where it is no such picture as Detector::detect() takes.
+/// The picture in three channels; empty if Detector::detect() does not accept it.
 cv::Mat as_bgr(const cv::Mat& picture);
 
 }  // namespace geoloc::io

@@ -61,7 +61,7 @@ class SecondLookDetector::Impl {
     return seen;
   }
 
-  /// What is in doubt is looked at twice more, mirrored: errors that a mirror undoes average out.
+  /// Evaluates doubtful patches twice more, mirrored, so that errors that change with mirroring average out.
   std::vector<SecondLookAnswer> judge(const std::vector<cv::Mat>& patches) {
     std::vector<SecondLookAnswer> answers = look_at(patches);
     std::vector<cv::Mat> doubtful;
@@ -79,8 +79,8 @@ class SecondLookDetector::Impl {
     return answers;
   }
 
-  /// As many at once as the network takes, or fewer: then the other patches are of an earlier time, and the
-  /// answers to them are not read.
+  /// Runs as many patches at once as the network takes. In an incomplete batch the other patches are left
+  /// from earlier, and the answers to them are not read.
   std::vector<SecondLookAnswer> look_at(const std::vector<cv::Mat>& patches) {
     std::vector<SecondLookAnswer> answers;
     const auto at_once = static_cast<std::size_t>(network_.batch);
@@ -97,7 +97,7 @@ class SecondLookDetector::Impl {
     return answers;
   }
 
-  /// nullopt where it is not sure enough, or nothing that can be.
+  /// nullopt if the answer is not confident enough, or is impossible.
   std::optional<Detection> detection_of(const SecondLookAnswer& answer, const cv::Rect& square, int class_id,
                                         cv::Size size) {
     if (!answer.is_sound()) {

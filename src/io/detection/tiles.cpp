@@ -18,7 +18,7 @@ struct Span {
 
 /// `count` spans of one length that cover [0, length_px).
 std::vector<Span> spans(int length_px, int count, int overlap_px) {
-  const int tiles = std::min(count, length_px);  // of a pixel each at least
+  const int tiles = std::min(count, length_px);  // of at least one pixel each
   // Overlaps of more than half a tile would cover the same three times.
   const int overlap = std::min(overlap_px, length_px / (tiles + 1));
   const int span_px = (length_px + (tiles - 1) * overlap + tiles - 1) / tiles;
@@ -30,7 +30,7 @@ std::vector<Span> spans(int length_px, int count, int overlap_px) {
   return all;
 }
 
-/// Where a tile ends and the picture goes on.
+/// Whether the box touches an edge of its tile where the picture continues.
 bool is_cut(const Box& box, const cv::Rect& tile, ImageSize picture) {
   constexpr double kNear_px = 2.0;
   return (tile.x > 0 && box.x < tile.x + kNear_px) || (tile.y > 0 && box.y < tile.y + kNear_px) ||

@@ -26,7 +26,7 @@ class Values {
   const YoloOutput& output_;
 };
 
-/// Of each candidate: its best class. Row by row, as the scores lie in memory.
+/// The best class of each candidate, computed row by row as the scores lie in memory.
 struct BestScores {
   std::vector<float> values;
   std::vector<int> class_ids;
@@ -48,7 +48,7 @@ BestScores best_scores(const YoloOutput& output) {
   return best;
 }
 
-/// In the network's input; nullopt where it cannot be a box.
+/// The box in the network's input; nullopt if it is impossible.
 std::optional<Box> box_of(const YoloOutput& output, int candidate) {
   const Values values{output};
   const double width = values(2, candidate);
@@ -77,7 +77,7 @@ DecodedBoxes confident_boxes(const YoloOutput& output, double threshold) {
   return found;
 }
 
-/// In the picture.
+/// The sigma in pixels of the picture.
 double sigma_px(const Box& in_input, const Box& in_picture, ImageSize picture, const CentreSigma& sigma) {
   const double size_px = std::sqrt(in_input.width * in_input.height);
   const double picture_per_input = std::sqrt(in_picture.width * in_picture.height) / size_px;

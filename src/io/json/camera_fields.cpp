@@ -34,7 +34,7 @@ namespace {
 
 constexpr const char* kFieldOfView = "horizontal_fov_deg";
 
-/// Replaces fx fy cx cy by what the field of view gives.
+/// Replaces fx fy cx cy by the values that follow from the field of view.
 void apply_field_of_view(const nlohmann::json& object, const std::string& path, CameraConfig& camera,
                          std::vector<std::string>& problems) {
   const std::string name = path.empty() ? kFieldOfView : path + "." + kFieldOfView;

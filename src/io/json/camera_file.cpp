@@ -20,7 +20,7 @@ namespace {
   throw std::runtime_error(name + ": not a usable camera calibration:" + all);
 }
 
-/// OpenCV writes the directive `%YAML:1.0`, which is not YAML; the rest of the file is.
+/// Removes the directive `%YAML:1.0`, which OpenCV writes but is not YAML; the rest of the file is.
 std::string without_opencv_directive(const std::string& text) {
   if (text.rfind("%YAML:", 0) != 0) return text;
   const std::size_t end = text.find('\n');

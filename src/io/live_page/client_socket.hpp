@@ -9,23 +9,25 @@
 
 namespace geoloc::io {
 
-/// One client's connection, with an end to everything: to the time that a request takes, to the
-/// patience with one who does not take what is written, and to all of it once the server stops.
+/// One client's connection, on which nothing lasts for ever: there are limits to the time of a request and to
+/// the time that a client takes to read, and everything ends when the server stops.
 class ClientSocket {
  public:
   /// Does not own the descriptors. `stop_descriptor` becomes readable when the server stops.
   ClientSocket(int descriptor, int stop_descriptor, const HttpLimits& limits);
 
-  /// Bytes read, at most `size`; -1 at the end of the stream or of the time for a request.
+  /// Returns the number of bytes read, at most `size`; -1 at the end of the stream or when the time for a
+  /// request is over.
   std::ptrdiff_t read(char* data, std::size_t size);
 
-  /// Writes all of it; false when the client is gone or too slow.
+  /// Writes the whole text; false if the client is gone or too slow.
   bool write(std::string_view text);
 
-  /// Whether the client can still be written to, so far as is known.
+  /// Whether, as far as is known, the client can still be written to.
   bool is_open() const;
 
-  /// All is written: lets the client take it. What it still sends would otherwise cut its answer off.
+  /// Lets the client receive everything that was written. Data that it still sends would otherwise cut its
+  /// answer off.
   void end();
 
  private:
@@ -38,7 +40,7 @@ class ClientSocket {
   int stop_descriptor_;
   HttpLimits limits_;
   Clock::time_point head_deadline_;
-  double behind_s_ = 0.0;  // waited for the client, less what its bytes allow
+  double behind_s_ = 0.0;  // time spent waiting for the client, minus what its bytes allow
 };
 
 }  // namespace geoloc::io

@@ -44,14 +44,14 @@ std::variant<PageRequest, Refusal> judged(const Request& request) {
 
 struct RequestHead::Parser {
   http::request_parser<http::empty_body> parser;
-  std::string waiting;  // bytes of a line that is not whole
+  std::string waiting;  // bytes of an incomplete line
   std::size_t bytes_left;
 };
 
 RequestHead::RequestHead(std::size_t most_bytes) : parser_(std::make_unique<Parser>()) {
   parser_->bytes_left = most_bytes;
   parser_->parser.header_limit(std::numeric_limits<std::uint32_t>::max());  // bytes_left is the limit
-  parser_->parser.skip(true);  // a body is neither wanted nor read
+  parser_->parser.skip(true);  // bodies are not expected and not read
 }
 
 RequestHead::~RequestHead() = default;

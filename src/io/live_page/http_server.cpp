@@ -19,7 +19,7 @@
 namespace geoloc::io {
 namespace {
 
-constexpr int kSendBuffer = 131072;  // what a slow page is behind at most, besides the event it is being sent
+constexpr int kSendBuffer = 131072;  // how far a slow page can be behind, besides the event being sent
 constexpr std::size_t kReadBuffer = 4096;
 constexpr std::string_view kBusy =
     "HTTP/1.1 503 Service Unavailable\r\nRetry-After: 5\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
@@ -28,7 +28,7 @@ PageAnswer too_many_pages() {
   return {503, "text/plain", "Too many pages are open.\n", false};
 }
 
-/// nullopt where the client leaves, or takes too long, before its request is whole.
+/// nullopt if the client leaves or takes too long before its request is complete.
 std::optional<std::variant<PageRequest, Refusal>> read_request(ClientSocket& socket, std::size_t most_bytes) {
   RequestHead head(most_bytes);
   std::array<char, kReadBuffer> bytes{};
@@ -39,7 +39,7 @@ std::optional<std::variant<PageRequest, Refusal>> read_request(ClientSocket& soc
   }
 }
 
-/// One of a bounded number of places, held while it lives.
+/// Holds one of a bounded number of places for its lifetime.
 class Place {
  public:
   Place(std::atomic<std::size_t>& taken, std::size_t most)
@@ -118,7 +118,7 @@ void HttpServer::Implementation::serve(int descriptor) {
     ClientSocket socket(descriptor, stop_descriptor_, limits_);
     talk(socket);
     socket.end();
-  } catch (const std::exception&) {  // out of memory, at worst: this client is given up, not the program
+  } catch (const std::exception&) {  // out of memory, at worst: drops this client, not the program
   }
   close(descriptor);
 }

@@ -14,21 +14,21 @@
 
 namespace geoloc::io {
 
-/// What one client, and all of them together, can make the server spend.
+/// Limits to the resources that one client, and all of them together, can use.
 struct HttpLimits {
-  std::size_t connections = 96;                ///< at a time; further ones are answered 503 unread
+  std::size_t connections = 96;                ///< at a time; further ones get 503 without being read
   std::size_t event_streams = 64;              ///< of these
   std::size_t head_bytes = 16384;              ///< of a request; there are no bodies
   std::chrono::milliseconds head_time{5000};   ///< for all of a request
-  std::chrono::milliseconds write_time{5000};  ///< that a client may be behind slowest_bytes_per_s
+  std::chrono::milliseconds write_time{5000};  ///< by which a client may be behind slowest_bytes_per_s
   double slowest_bytes_per_s = 16384.0;
 };
 
-/// HTTP/1.1, one request a connection, each connection in a thread of a bounded pool.
+/// HTTP/1.1 with one request per connection, each connection in a thread of a bounded pool.
 class HttpServer {
  public:
   using Answer = std::function<PageAnswer(const PageRequest&)>;
-  /// The next event's text, once there is one; nullopt ends the stream. One is made for each stream.
+  /// Waits for the next event's text; nullopt ends the stream. One function is made per stream.
   using Events = std::function<std::optional<std::string>()>;
 
   /// Throws std::runtime_error that names the endpoint, the reason and the remedy.

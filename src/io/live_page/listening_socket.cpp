@@ -55,7 +55,7 @@ ListeningSocket::ListeningSocket(const HttpEndpoint& endpoint, int send_buffer_b
   const tcp::endpoint address = resolved(acceptor_->context, endpoint);
   error_code error;
   acceptor.open(address.protocol(), error);
-  // Accepted connections inherit these. A port that another program listens at is not shared.
+  // Accepted connections inherit these options. A port that another program listens on is not shared.
   if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
   if (!error) acceptor.set_option(boost::asio::socket_base::send_buffer_size(send_buffer_bytes), error);
   if (!error) acceptor.set_option(tcp::no_delay(true), error);
@@ -79,7 +79,7 @@ int ListeningSocket::accept(int stop_descriptor) {
     if ((waiting[0].revents & POLLIN) == 0) continue;
     const int client = accept4(descriptor, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (client >= 0) return client;
-    // The client waits in the queue and would be announced again at once.
+    // The client stays in the queue and would be announced again at once.
     if (errno == EMFILE || errno == ENFILE || errno == ENOMEM || errno == ENOBUFS)
       std::this_thread::sleep_for(kOutOfDescriptors);
   }

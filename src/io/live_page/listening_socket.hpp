@@ -8,7 +8,7 @@
 
 namespace geoloc::io {
 
-/// A TCP port that clients are accepted at.
+/// A TCP port on which clients are accepted.
 class ListeningSocket {
  public:
   /// `send_buffer_bytes` of each accepted connection. Throws std::runtime_error that names the endpoint, the
@@ -20,8 +20,8 @@ class ListeningSocket {
 
   std::uint16_t port() const;
 
-  /// Waits for the next client; its descriptor is the caller's to close. -1 once `stop_descriptor` is
-  /// readable.
+  /// Waits for the next client and returns its descriptor, which the caller closes; -1 once `stop_descriptor`
+  /// is readable.
   int accept(int stop_descriptor);
 
  private:

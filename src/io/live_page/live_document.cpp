@@ -19,7 +19,7 @@ constexpr std::size_t kMostObjects = 5000;
 constexpr std::size_t kMostMoments = 128;
 constexpr double kNoteworthyChange = 0.05;  // of an object's sigma
 
-/// Forgets every second entry, so that what stays covers the same time.
+/// Drops every second entry, so that the rest covers the same time.
 template <typename T>
 void thin_out(std::vector<T>& entries) {
   std::size_t kept = 0;
@@ -27,7 +27,7 @@ void thin_out(std::vector<T>& entries) {
   entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(kept), entries.end());
 }
 
-/// Of all that can change without the rest.
+/// Compares everything that can change on its own.
 bool is_same(const ObjectReport& a, const ObjectReport& b) {
   return a.position_in_enu == b.position_in_enu && a.covariance_in_enu == b.covariance_in_enu &&
          a.hits == b.hits && a.confidence == b.confidence && a.class_id == b.class_id;
@@ -116,7 +116,8 @@ void LiveDocument::add_object(const ObjectReport& report, bool is_confirmed, Hos
   entry.revision = revision_;
 }
 
-/// It was seen again, or others of the run have made it better known.
+/// Records how well an object is known after it was seen again, or after other observations improved its
+/// estimate.
 void LiveDocument::note_moment(Entry& entry, HostTime at) {
   const double sigma_m = entry.report.ellipse.sigma_major_m;
   if (!entry.history.empty()) {

@@ -22,8 +22,8 @@ HttpLimits limits_of(const LivePageConfig& config) {
   return limits;
 }
 
-/// One page's stream: the changes since the last event, as often as the period allows. While nothing changes
-/// a heartbeat tells that the run is there.
+/// One page's stream: the changes since the last event, as often as the period allows. While nothing changes,
+/// a heartbeat shows that the run is alive.
 class PageStream {
  public:
   PageStream(const LiveDocument& document, std::chrono::milliseconds period)

@@ -26,7 +26,7 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// Without ":PORT", and an IPv6 address without its brackets.
+/// The host without ":PORT", and an IPv6 address without its brackets.
 std::string host_of_header(const std::string& header) {
   if (!header.empty() && header.front() == '[') {
     const std::size_t end = header.find(']');
@@ -41,7 +41,7 @@ bool is_address(const std::string& host) {
          inet_pton(AF_INET6, host.c_str(), address.data()) == 1;
 }
 
-/// A browser says so where another site's page makes it ask. Following a link from there is no harm.
+/// Browsers state when another site's page causes a request. Following a link from there is harmless.
 bool is_on_behalf_of_another_site(const PageRequest& request) {
   const std::string& site = request.fetch_site;
   return !site.empty() && site != "same-origin" && site != "none" && request.fetch_mode != "navigate";
@@ -118,9 +118,9 @@ LiveSite::LiveSite(const LiveDocument& document, PictureBoard& board, const Live
 
 PageAnswer LiveSite::answer(const PageRequest& request) const {
   if (!is_own_host(request.host, own_names_))
-    return refuse(421, "Ask by this computer's address: the name in the request is not its own.");
+    return refuse(421, "Use this computer's address: the name in the request is not one of its own.");
   if (request.method != "GET" && request.method != "HEAD") return refuse(405, "Only GET and HEAD.");
-  if (is_on_behalf_of_another_site(request)) return refuse(403, "Not for pages of other sites.");
+  if (is_on_behalf_of_another_site(request)) return refuse(403, "Not available to pages of other sites.");
   return dispatch(request);
 }
 

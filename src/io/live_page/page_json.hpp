@@ -7,8 +7,8 @@
 #include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/live_page/picture_board.hpp"
 
-// The parts of what the page is sent, as JSON texts. What is not finite becomes null; bytes that are not
-// UTF-8 are replaced.
+// The parts of what the page is sent, as JSON texts. Values that are not finite become null; bytes that are
+// not UTF-8 are replaced.
 namespace geoloc::io::page_json {
 
 std::string title(const LivePageTitle& title);
@@ -23,16 +23,16 @@ std::string targets(const std::vector<Eigen::Vector2d>& positions_in_enu);
 std::string picture(const LivePicture& picture, std::uint64_t number,
                     const std::vector<std::string>& class_names);
 
-/// What the page needs to know of the configuration.
+/// The settings that the page needs.
 std::string settings(const LivePageConfig& config);
 
-/// A place known in both frames: with it the page turns east and north into degrees.
+/// A position known in both frames, with which the page converts east and north to degrees.
 std::string anchor(const ViewReport& view);
 
-/// One more `"name":value` of an object that is written piece by piece.
+/// Appends `"name":value` to an object that is written piece by piece.
 void append(std::string& object, const std::string& name, const std::string& json);
 
-/// `object` without its closing brace, and what a click on it shows besides.
+/// `object` without its closing brace, and the details that a click on it shows.
 std::string details(const ObjectReport& report, const std::string& object_json,
                     const std::string& history_json);
 

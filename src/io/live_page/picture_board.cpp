@@ -8,7 +8,7 @@
 namespace geoloc::io {
 namespace {
 
-constexpr std::chrono::seconds kInterest{3};  // of somebody who looked
+constexpr std::chrono::seconds kInterest{3};  // of a page that was watching
 
 }  // namespace
 

@@ -19,7 +19,7 @@ bool WorkerPool::try_run(std::function<void()> job) {
     if (threads_.size() >= most_threads_) return false;
     try {
       threads_.emplace_back([this] { work(); });
-    } catch (const std::system_error&) {  // the system has no more of them
+    } catch (const std::system_error&) {  // the system has no more threads
       return false;
     }
     ++idle_;

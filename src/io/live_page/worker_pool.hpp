@@ -11,7 +11,7 @@
 
 namespace geoloc::io {
 
-/// Threads that are made as they are needed, up to a number.
+/// A pool of threads that are started as needed, up to a limit.
 class WorkerPool {
  public:
   explicit WorkerPool(std::size_t most_threads);
@@ -20,7 +20,8 @@ class WorkerPool {
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
-  /// False, and the job is not taken, while every thread is busy. A job must not throw.
+  /// Runs a job in a free thread; returns false without running it if every thread is busy. A job must not
+  /// throw.
   bool try_run(std::function<void()> job);
 
   /// Waits for all jobs.

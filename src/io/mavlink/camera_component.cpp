@@ -14,13 +14,13 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t kInformation = 259, kFieldOfView = 271, kTracking = 276;
 
-constexpr Duration kLeastPeriod = 100ms;  // whatever is asked for: the link is the vehicle's
+constexpr Duration kLeastPeriod = 100ms;  // whatever is requested, because the link is the vehicle's
 constexpr Duration kLongestPeriod = 1h;
 constexpr Duration kViewLasts = 3s;
 constexpr std::size_t kMostReplies = 16;  // a flood of commands is not answered
 constexpr double kReach = 0.1;            // of the image: a point selects an object that is nearer
 
-/// A message's number in a command's parameter; nullopt where it is none.
+/// A message's number in a command's parameter; nullopt if it is not valid.
 std::optional<std::uint32_t> message_number(float parameter) {
   constexpr float kLargest = 16'777'215.0F;
   if (!(parameter >= 0.0F && parameter <= kLargest)) return std::nullopt;
@@ -49,7 +49,7 @@ void CameraComponent::obey(const Command& command, MavAddress sender) {
   Reply reply = answer(command);
   reply.to = sender;
   reply.command = command.command;
-  if (is_for_all && reply.result != kAccepted) return;  // others may know better
+  if (is_for_all && reply.result != kAccepted) return;  // another component may support it
   if (replies_.size() < kMostReplies) replies_.push_back(reply);
 }
 
@@ -165,7 +165,8 @@ void CameraComponent::poll(HostTime now, const std::optional<MavAddress>& vehicl
   replies_.clear();
   for (Stream* stream : {&tracking_, &field_of_view_}) {
     if (!stream->period || !is_due(stream->sent_at, *stream->period, now) || !has_fresh_view(now)) continue;
-    if (stream == &tracking_ && tracked() == nullptr) continue;  // told while there is something to track
+    if (stream == &tracking_ && tracked() == nullptr)
+      continue;  // sent only while there is something to track
     stream->sent_at = now;
     send_message(stream->message_id, self, send);
   }

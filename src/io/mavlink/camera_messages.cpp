@@ -16,7 +16,8 @@ constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
 std::int32_t scaled(double value, double scale) {
   constexpr double kLimit = std::numeric_limits<std::int32_t>::max() - 1;
   const double result = std::round(value * scale);
-  if (!(std::abs(result) <= kLimit)) return std::numeric_limits<std::int32_t>::max();  // the word for unknown
+  if (!(std::abs(result) <= kLimit))
+    return std::numeric_limits<std::int32_t>::max();  // the protocol's value for unknown
   return static_cast<std::int32_t>(result);
 }
 

@@ -15,7 +15,7 @@ constexpr std::size_t kHeaderSizeV2 = 10;
 constexpr std::size_t kChecksumSize = 2;
 constexpr std::size_t kSignatureSize = 13;
 constexpr std::uint8_t kSignedFlag =
-    0x01;  // the only incompatibility flag there is: a frame with another cannot be read
+    0x01;  // the only defined incompatibility flag; a frame with another one cannot be read
 
 enum class Finding { kFrame, kBadFrame, kUnknownMessage, kNoFrame, kNeedsMoreBytes };
 
@@ -33,7 +33,7 @@ class Checksum {
   std::uint16_t value_ = 0xFFFF;
 };
 
-/// The bytes as a frame by its header alone; kNoFrame where they cannot be one.
+/// Interprets the bytes as a frame by the header alone; kNoFrame if they cannot be one.
 Finding read_header(const std::uint8_t* bytes, std::size_t available, Frame& frame) {
   frame.is_v2 = bytes[0] == kMagicV2;
   if (!frame.is_v2 && bytes[0] != kMagicV1) return Finding::kNoFrame;
@@ -66,8 +66,8 @@ Finding inspect(const std::uint8_t* bytes, std::size_t available, Frame& frame) 
   if (header != Finding::kFrame) return header;
   const auto spec = message_spec(frame.message_id);
   if (!spec) return Finding::kUnknownMessage;
-  // MAVLink 1 cuts no zeros (and should carry no extensions, but pymavlink sends them): a size that cannot be
-  // is seen without waiting for the bytes.
+  // MAVLink 1 does not truncate zeros (and should not carry extensions, but pymavlink sends them), so an
+  // impossible size is detected without waiting for the bytes.
   const bool is_possible_v1 = frame.payload_size >= spec->base_size && frame.payload_size <= spec->full_size;
   if (!frame.is_v2 && !is_possible_v1) return Finding::kBadFrame;
   if (available < frame.size) return Finding::kNeedsMoreBytes;

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-// Of MAV_CMD and MAV_RESULT, where the generated headers would be a heavy way to have them.
+// Values of MAV_CMD and MAV_RESULT, for files that would otherwise need the large generated headers.
 namespace geoloc::io {
 
 inline constexpr std::uint16_t kSetMessageInterval = 511;

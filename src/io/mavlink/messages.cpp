@@ -11,11 +11,11 @@
 namespace geoloc::io {
 namespace {
 
-constexpr double kLargestTurn_rad = 6.2832;  // of angles that may be given as 0..2 pi
+constexpr double kLargestTurn_rad = 6.2832;  // for angles that may be given as 0..2 pi
 constexpr double kLargestPitch_rad = 1.5709;
 constexpr double kLargestHeight_m = 100e3;
 
-/// The generated decoders fill up what a short payload lacks.
+/// Decodes with the generated decoders, which pad short payloads.
 template <typename Fields>
 Fields unpack(const Frame& frame, void (*decode_fields)(const mavlink_message_t*, Fields*)) {
   mavlink_message_t message{};
@@ -83,7 +83,7 @@ Message decode_gnss_status(const Frame& frame) {
 Message decode_timesync(const Frame& frame) {
   const auto fields = unpack(frame, mavlink_msg_timesync_decode);
   Timesync timesync{fields.tc1, fields.ts1, {}};
-  // An extension of later dialects than the generated one, told by the length alone.
+  // An extension of dialects newer than the generated one, recognised by the length alone.
   constexpr std::size_t kTargetSystem = 16, kTargetComponent = 17;
   if (frame.payload_size > kTargetSystem) timesync.target.system = frame.payload[kTargetSystem];
   if (frame.payload_size > kTargetComponent) timesync.target.component = frame.payload[kTargetComponent];

@@ -27,7 +27,7 @@ OutgoingFrame pack(MavAddress self, std::uint8_t sequence, bool use_v2, Encode<F
   return frame;
 }
 
-/// Of a component that is no autopilot.
+/// The HEARTBEAT of a component that is no autopilot.
 inline OutgoingFrame pack_heartbeat(MavAddress self, std::uint8_t sequence, bool use_v2, MAV_TYPE type) {
   mavlink_heartbeat_t fields{};
   fields.type = type;

@@ -4,8 +4,8 @@
 namespace geoloc::io {
 namespace {
 
-/// Frames missing between two sequence numbers, which wrap at 256. Half a turn or more is a frame that was
-/// overtaken or came twice: nothing is missing.
+/// Frames missing between two sequence numbers, which wrap at 256. A difference of half the range or more is
+/// a frame that was overtaken or duplicated: nothing is missing.
 std::uint64_t missing_between(std::uint8_t before, std::uint8_t after) {
   const auto missing = static_cast<std::uint8_t>(after - before - 1);
   return missing < 128 ? missing : 0;

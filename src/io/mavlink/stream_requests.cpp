@@ -11,14 +11,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Autopilots round intervals to their scheduler, and links lose some.
+/// Share of the wanted rate that is enough: autopilots round intervals to their scheduler, and links lose
+/// messages.
 constexpr double kEnough = 0.6;
 constexpr Duration kFirstLook = 1s;
 constexpr Duration kAnswerTimeout = 1s;
 constexpr Duration kTimeToTakeEffect = 3s;
 constexpr Duration kPauseAfterDenial = 10s;
 constexpr Duration kLongestPause = 30s;
-/// Unanswered requests after which the old way is tried in turn with the new one.
+/// Number of unanswered requests after which the old request is tried in turn with the new one.
 constexpr int kPatience = 2;
 
 Duration pause_after(int attempts) {

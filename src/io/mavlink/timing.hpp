@@ -9,7 +9,7 @@ namespace geoloc::io {
 
 inline constexpr Duration kHeartbeatPeriod = std::chrono::seconds{1};
 
-/// Whether what was last done then is to be done again now; at once where it never was.
+/// Whether something last done at `last` is due again; if it was never done, it is due at once.
 inline bool is_due(const std::optional<HostTime>& last, Duration period, HostTime now) {
   return !last || now < *last || now - *last >= period;
 }

@@ -85,7 +85,7 @@ std::optional<UdpSocket::Datagram> UdpSocket::receive(std::chrono::milliseconds 
   const ssize_t size =
       recvfrom(descriptor_, buffer_.data(), buffer_.size(), 0,
                reinterpret_cast<sockaddr*>(&datagram.sender.address), &datagram.sender.address_size);
-  if (size < 0) {  // ECONNREFUSED, for one: what was sent before found nobody listening
+  if (size < 0) {  // ECONNREFUSED, for example, because nobody listened for an earlier datagram
     if (errno != EAGAIN && errno != EINTR) ++counts_.receive_errors;
     return std::nullopt;
   }

@@ -15,16 +15,16 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint8_t kAutopilotComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
-/// The clock is wanted soon after start and reboot; then it only drifts.
+/// The clock is needed soon after start and reboot; after that it only drifts.
 constexpr Duration kFastTimesyncPeriod = 100ms;
 constexpr Duration kTimesyncPeriod = 1s;
 constexpr int kFastTimesyncs = 20;
 constexpr Duration kTextPeriod = 500ms;
-constexpr std::size_t kMostTexts = 20;  // waiting; more would be old news
-/// While ATTITUDE came less than this ago, ATTITUDE_QUATERNION says nothing new.
+constexpr std::size_t kMostTexts = 20;  // waiting; older ones would be out of date
+/// For this long after an ATTITUDE, ATTITUDE_QUATERNION adds nothing new.
 constexpr Duration kEulerSilence = 1s;
-/// Recordings keep whole microseconds. The digits below say, in what a vehicle answers, that the question was
-/// ours.
+/// Recordings keep whole microseconds. In a vehicle's answer, the digits below those show that the request
+/// was ours.
 constexpr std::int64_t kNanosecondsPerStamp = 1000;
 
 std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot) {
@@ -210,7 +210,7 @@ MavAddress VehicleLink::self() const {
   return {vehicle_->system, static_cast<std::uint8_t>(config_.component_id)};
 }
 
-/// Senders that do not say whom they answer leave 0.
+/// Senders that do not state whom they answer leave 0.
 bool VehicleLink::is_for_us(MavAddress target) const {
   return (target.system == 0 || target.system == self().system) &&
          (target.component == 0 || target.component == self().component);

@@ -10,8 +10,9 @@
 namespace geoloc::io {
 namespace {
 
-/// Share of a Gaussian (major axis 1, minor axis `ratio`) within `radius`. In polar angle the radius
-/// integrates in closed form; what is left is smooth in x = radius sin(t): the midpoint rule over t.
+/// Share of a Gaussian (major axis 1, minor axis `ratio`) within `radius`. In polar coordinates the radius
+/// integrates in closed form. The rest is smooth in x = radius sin(t) and integrated by the midpoint rule
+/// over t.
 double share_within(double radius, double ratio) {
   constexpr int kSteps = 256;
   const double step = 0.5 * kPi / kSteps;

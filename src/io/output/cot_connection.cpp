@@ -113,7 +113,8 @@ void CotConnection::finish_connecting(Clock::time_point now) {
   if (std::exchange(has_told_, false)) tell_(name() + ": connected");
 }
 
-/// A server may send events of others; unread, they would fill its side up.
+/// Reads and discards what the server sends, such as other clients' events, which would otherwise fill its
+/// buffers.
 void CotConnection::discard_received(Clock::time_point now) {
   std::array<char, 4096> ignored;
   for (int i = 0; i < 64; ++i) {
@@ -122,7 +123,7 @@ void CotConnection::discard_received(Clock::time_point now) {
     if (size == 0 && is_tcp) return fail(now, "the server closed the connection");
     if (size < 0 && would_block(errno)) return;
     if (size < 0 && is_tcp) return fail(now, reason_of(errno));
-    if (size < 0) ++counts_.failed;  // UDP: nobody listens there
+    if (size < 0) ++counts_.failed;  // UDP: nobody is listening
   }
 }
 

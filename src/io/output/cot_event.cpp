@@ -13,7 +13,7 @@
 namespace geoloc::io {
 namespace {
 
-constexpr double kUnknown = 9999999.0;  // the protocol's word for it
+constexpr double kUnknown = 9999999.0;  // the protocol's value for it
 constexpr std::size_t kLongestName = 32;
 
 double known_or(double value, double otherwise) {
@@ -33,7 +33,7 @@ std::string remarks(const ObjectReport& object, const CotContext& context) {
   return text;
 }
 
-/// Nothing of what stands still.
+/// The <track> element; empty for objects that stand still.
 std::string track_of(const ObjectReport& object) {
   if (!object.course) return {};
   return fmt::format("<track course=\"{:.1f}\" speed=\"{:.2f}\"/>",

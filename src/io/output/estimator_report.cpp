@@ -3,6 +3,8 @@
 
 #include <numeric>
 
+#include "geoloc/state/state_provider.hpp"
+
 namespace geoloc::io {
 namespace {
 

@@ -25,7 +25,7 @@ void JsonLinesSink::fail(int error) {
   throw std::runtime_error(name() + ": cannot be written: " + std::generic_category().message(error));
 }
 
-/// Not before the first line: a named pipe makes its writer wait for a reader.
+/// Called only for the first line, because a named pipe makes its writer wait for a reader.
 void JsonLinesSink::open() {
   if (target_ == "-") {
     descriptor_ = STDOUT_FILENO;

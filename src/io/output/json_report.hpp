@@ -7,7 +7,7 @@
 #include "geoloc/io/output/estimator_report.hpp"
 #include "geoloc/io/output/object_report.hpp"
 
-// What GeoJSON and JSON Lines have in common.
+// Parts common to GeoJSON and JSON Lines.
 namespace geoloc::io {
 
 /// The properties of docs/formats.md.
@@ -15,7 +15,7 @@ nlohmann::ordered_json properties_to_json(const ObjectReport& object);
 
 nlohmann::ordered_json counters_to_json(const RunCounters& counters);
 
-/// null for a method that learns none.
+/// null for a method that estimates none.
 nlohmann::ordered_json calibration_to_json(const std::optional<Calibration>& calibration);
 
 }  // namespace geoloc::io

@@ -52,7 +52,7 @@ void write_properties(const ObjectReport& object, std::string& kml) {
   kml += "</ExtendedData>\n";
 }
 
-/// As KML wants outer rings: counter-clockwise, the first corner again at the end.
+/// The ellipse as an outer ring of KML: counter-clockwise, with the first corner repeated at the end.
 std::string ellipse_ring(const ObjectReport& object, const LocalFrame& frame) {
   const double azimuth_rad = object.ellipse.azimuth_deg * kRadPerDeg;
   const Eigen::Vector2d major(std::sin(azimuth_rad), std::cos(azimuth_rad));

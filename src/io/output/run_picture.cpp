@@ -37,7 +37,7 @@ std::string style() {
          "@media (prefers-color-scheme:dark){" + with_colours(kColours, ColourScheme::kDark) + "}</style>\n";
 }
 
-/// East, north to pixels of the picture: same scale both ways, north up.
+/// Maps east and north to pixels of the picture, with the same scale on both axes and north up.
 class Map {
  public:
   explicit Map(const Eigen::AlignedBox2d& area) : area_(area) {
@@ -54,7 +54,7 @@ class Map {
   double scale_;
 };
 
-/// All that is shown, with a border; at least 10 m, and not more than four times as high as wide.
+/// The area of everything shown, with a border; at least 10 m, and not more than four times as high as wide.
 Eigen::AlignedBox2d area_of(const RunPicture& picture) {
   Eigen::AlignedBox2d area;
   for (const auto* points : {&picture.targets, &picture.raw_fixes, &picture.trajectory}) {

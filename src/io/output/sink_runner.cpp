@@ -41,7 +41,7 @@ struct SinkRunner::State {
   void call(const Item& item);
   void guarded(const std::function<void()>& step, bool is_run);
 
-  std::string last_error_;  // of the thread alone
+  std::string last_error_;  // used by the thread only
 };
 
 void SinkRunner::State::run() {
@@ -93,7 +93,7 @@ void SinkRunner::State::guarded(const std::function<void()>& step, bool is_run) 
       stats.error = error;
     }
     if (is_run) {
-      stats.has_lost_run = !error.empty();  // a run holds all that came before
+      stats.has_lost_run = !error.empty();  // a run includes everything before it
     } else if (!error.empty()) {
       stats.has_lost_frames = true;
     }

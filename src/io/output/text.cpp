@@ -11,7 +11,7 @@ constexpr std::string_view kEllipsis = "\xE2\x80\xA6";
 
 struct Character {
   std::uint32_t code = 0;
-  std::size_t size = 1;  // bytes; of what is no character, those to skip
+  std::size_t size = 1;  // in bytes; for an invalid sequence, the bytes to skip
   bool is_valid = false;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/picture/picture_file.hpp"
 
-// The markers are those of ITU-T T.81, annex B.
+// Markers are those of ITU-T T.81, annex B.
 namespace geoloc::io {
 namespace {
 
@@ -11,13 +11,13 @@ unsigned byte_at(std::string_view bytes, std::size_t position) {
   return static_cast<unsigned char>(bytes[position]);
 }
 
-/// Without a length of their own: those of restarts, and the one for private use.
+/// Whether the marker has no length field: restart markers, and the one for private use.
 bool stands_alone(unsigned marker) {
   return marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8);
 }
 
-/// The next marker from `position` on, which is then behind it; 0 at the end. What is no marker is coded data
-/// (where FF is followed by 00), restarts, or filling.
+/// Finds the next marker from `position` on and moves `position` past it; 0 at the end. It skips coded data
+/// (where FF is followed by 00), restarts and fill bytes.
 unsigned next_marker(std::string_view bytes, std::size_t& position) {
   while (position + 1 < bytes.size()) {
     const unsigned marker = byte_at(bytes, position) == 0xFF ? byte_at(bytes, position + 1) : 0;
@@ -32,7 +32,7 @@ unsigned next_marker(std::string_view bytes, std::size_t& position) {
 }  // namespace
 
 bool is_whole_jpeg(std::string_view bytes) {
-  std::size_t position = 2;  // behind the start marker
+  std::size_t position = 2;  // after the start marker
   bool has_scan = false;
   while (const unsigned marker = next_marker(bytes, position)) {
     if (marker == kEndOfImage) return has_scan;

@@ -30,7 +30,7 @@ std::vector<char> read_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-/// Empty where it is none.
+/// Decodes the file; empty if it is no picture.
 cv::Mat decode(const std::filesystem::path& file, const std::vector<char>& bytes) {
   const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::Mat picture;

@@ -24,7 +24,8 @@ std::ofstream open_for_writing(const fs::path& file) {
   return output;
 }
 
-/// Flushed at once, so that a full disk is noticed at the record it spoils and a crash loses nothing.
+/// Writes and flushes at once, so that a full disk is noticed at the record it affects and a crash loses
+/// nothing.
 void write_out(std::ofstream& output, const std::string& bytes, const fs::path& file) {
   errno = 0;
   output.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
@@ -103,7 +104,7 @@ void RecordingWriter::finish() {
   frames_.close();
   if (!telemetry_ || !frames_) fail_to_write(partial_, errno);
   std::error_code error;
-  fs::remove(folder_, error);  // an empty folder of that name may be there
+  fs::remove(folder_, error);  // an empty folder of that name may exist
   fs::rename(partial_, folder_, error);
   if (error) fail_to_write(folder_, error.value());
 }

@@ -30,7 +30,7 @@ std::int64_t big_endian_microseconds(const std::uint8_t* bytes) {
   return static_cast<std::int64_t>(value);
 }
 
-/// Stamps are believed between 1970 and 2200: within the range of nanoseconds in 64 bits.
+/// Time stamps are plausible between 1970 and 2200, within the range of nanoseconds in 64 bits.
 bool is_plausible_stamp(std::int64_t stamp_us) {
   return stamp_us >= 0 && stamp_us < 7'258'118'400'000'000;
 }
@@ -43,7 +43,7 @@ std::size_t record_size(const std::vector<std::uint8_t>& bytes, std::size_t offs
   return size == 0 ? 0 : kStampSize + size;
 }
 
-/// After damage a lone magic byte proves little: the record must be followed by another one, or by the end.
+/// After damage a single magic byte proves little: the record must be followed by another one, or by the end.
 bool starts_chain(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
   const std::size_t size = record_size(bytes, offset);
   if (size == 0) return false;

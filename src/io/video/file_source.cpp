@@ -15,7 +15,7 @@ namespace {
 /// Longer than any file; keeps a damaged time stamp from overflowing the clock.
 constexpr GstClockTime kLongestFile = 365ULL * 24 * 3600 * GST_SECOND;
 
-/// From the beginning of the file.
+/// The sample's time from the beginning of the file.
 std::optional<Duration> time_of(GstSample* sample) {
   const GstClockTime pts = GST_BUFFER_PTS(gst_sample_get_buffer(sample));
   const guint64 running = gst_segment_to_running_time(gst_sample_get_segment(sample), GST_FORMAT_TIME, pts);
@@ -40,7 +40,7 @@ class FileSource::Impl {
     gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
   }
 
-  ~Impl() { exchange_.end(); }  // frees the streaming thread, for which the pipeline will wait
+  ~Impl() { exchange_.end(); }  // releases the streaming thread, for which the pipeline waits
 
   std::optional<VideoFrame> next(Duration timeout) { return exchange_.take(timeout); }
   VideoStatus status() const { return exchange_.status(clock_.now()); }
@@ -67,7 +67,7 @@ class FileSource::Impl {
     gst_bus_set_sync_handler(bus.get(), on_message, this, nullptr);
   }
 
-  /// Decodes the first frame, so that a file that cannot be played is told before anything starts.
+  /// Decodes the first frame, so that an unplayable file is reported before anything starts.
   void open(const std::filesystem::path& file) {
     constexpr Duration kPatience = std::chrono::seconds{10};
     const HostTime begun = clock_.now();
@@ -111,13 +111,13 @@ class FileSource::Impl {
     Impl& here = *static_cast<Impl*>(self);
     try {
       return here.deliver(sample.get()) ? GST_FLOW_OK : GST_FLOW_EOS;
-    } catch (const std::exception&) {  // no memory for the picture; an exception must not pass through C
+    } catch (const std::exception&) {  // out of memory for the picture; an exception must not pass through C
       here.exchange_.count_refused();
       return GST_FLOW_OK;
     }
   }
 
-  /// False when nobody wants more.
+  /// False if no more frames are wanted.
   bool deliver(GstSample* sample) {
     const HostTime now = clock_.now();
     auto bgr = copy_bgr(sample, config_.max_megapixels);

@@ -6,7 +6,8 @@
 namespace geoloc::io {
 
 void FrameLedger::observe(const RtpPacket& packet, HostTime received_at) {
-  if (!last_sequence_) damaged_since_ = received_at;  // joined in the middle, until a picture begins afresh
+  if (!last_sequence_)
+    damaged_since_ = received_at;  // joined in the middle: damaged until a random access picture
   if (last_sequence_) {
     const auto missing = static_cast<std::uint16_t>(packet.sequence - *last_sequence_ - 1);
     if (missing != 0) note_gap(missing, received_at);
@@ -23,7 +24,7 @@ void FrameLedger::observe(const RtpPacket& packet, HostTime received_at) {
 }
 
 void FrameLedger::note_gap(std::uint16_t missing, HostTime at) {
-  constexpr std::uint16_t kRestart = 0x8000;  // the sender began anew: nothing tells how much is lost
+  constexpr std::uint16_t kRestart = 0x8000;  // the sender restarted: the number of lost packets is unknown
   if (missing < kRestart) lost_packets_ += missing;
   damaged_since_ = at;
   if (frames_ > 0) entries_[(frames_ - 1) % kFrames].damaged = true;

@@ -5,8 +5,7 @@
 
 #include <memory>
 
-// Owners for GStreamer's counted objects: what a function returns with "transfer full" goes into one of
-// these.
+// Owners of GStreamer's reference-counted objects: a result with "transfer full" goes into one of these.
 namespace geoloc::io {
 
 template <auto Release>

@@ -47,7 +47,7 @@ std::string error_text(GstMessage* message) {
   gchar* details = nullptr;
   gst_message_parse_error(message, &error, &details);
   std::string text = error != nullptr ? error->message : "unknown error";
-  // "Could not open resource" is all that the message says; the reason is the last line of the details.
+  // The message only says "Could not open resource"; the reason is the last line of the details.
   const std::string_view all = details != nullptr ? details : "";
   if (const auto line_end = all.rfind('\n');
       line_end + 1 < all.size() && line_end != std::string_view::npos) {

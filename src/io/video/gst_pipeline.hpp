@@ -9,7 +9,7 @@
 
 #include "gst_handles.hpp"
 
-// What the sources of live and of recorded video share.
+// Functions shared by the sources of live and of recorded video.
 namespace geoloc::io {
 
 /// Initialises GStreamer, once. Throws std::runtime_error with its reason.
@@ -27,11 +27,11 @@ GstElement* add_element(GstElement* pipeline, const char* name);
 /// thread.
 GstElement* add_bgr_sink(GstElement* pipeline, GstAppSinkCallbacks callbacks, void* user);
 
-/// The reason that an error message gives.
+/// The reason in an error message.
 std::string error_text(GstMessage* message);
 
-/// A copy of the picture; nullopt where it is not BGR, empty, larger than max_megapixels, or shorter than it
-/// claims.
+/// A copy of the picture; nullopt if it is not BGR, empty, larger than max_megapixels, or shorter than its
+/// header says.
 std::optional<cv::Mat> copy_bgr(GstSample* sample, double max_megapixels);
 
 }  // namespace geoloc::io

@@ -11,7 +11,7 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 constexpr std::int64_t kSecondsFrom1900To1970 = 2'208'988'800;
 constexpr std::uint32_t kFastestClockHz = 100'000'000;
 
-/// Time from the report to the timestamp. RTP timestamps wrap, so the nearer way round is meant.
+/// Time from the report to the timestamp. RTP timestamps wrap, so the shorter way round is taken.
 Duration elapsed_since(const SenderReport& report, std::uint32_t rtp_timestamp) {
   const auto ticks = static_cast<std::int32_t>(rtp_timestamp - report.rtp_timestamp);
   return Duration{ticks * kNanosecondsPerSecond / static_cast<std::int64_t>(report.ticks_per_second)};

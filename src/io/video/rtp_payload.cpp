@@ -13,7 +13,7 @@ struct Bytes {
   }
 };
 
-/// What differs between the two payload formats, and how their NAL unit headers are laid out.
+/// The differences between the two payload formats, and the layout of their NAL unit headers.
 struct Format {
   std::size_t header_size;  ///< of a NAL unit
   unsigned aggregation;     ///< NAL unit type of a packet with several units in it (STAP-A, AP)
@@ -33,7 +33,7 @@ constexpr Format kH265Format{2,
                              [](unsigned type) { return type >= 16 && type <= 23; },
                              63U};
 
-/// Both codecs begin a slice header with what is a single 1 bit in the first slice of a picture:
+/// In both codecs a slice header begins with a single 1 bit in the first slice of a picture:
 /// first_mb_in_slice = 0 as ue(v), first_slice_segment_in_pic_flag. A later slice proves nothing, as the
 /// first may be lost.
 bool is_first_slice(Bytes slice_header) {

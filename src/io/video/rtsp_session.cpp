@@ -24,8 +24,8 @@ struct RtspSession::Format {
 namespace {
 
 /// The RTP timestamp travels with the picture: this meta survives depayloader, parser, decoder and converter.
-/// A map from presentation times would not do: the jitter buffer may give several frames of a burst the same
-/// one.
+/// A map from presentation times would not work, because the jitter buffer may give several frames of a burst
+/// the same one.
 GstCaps* rtp_timestamp_caps() {
   static GstCaps* const caps = gst_caps_new_empty_simple("timestamp/x-geoloc-rtp");
   return caps;
@@ -53,7 +53,7 @@ GstElement* add_rtspsrc(GstElement* pipeline, const std::string& url, const Vide
   return source;
 }
 
-/// What was wrong, if the pipeline said so within the wait.
+/// The error, if the pipeline reports one within the wait.
 std::optional<std::string> failure(GstElement* pipeline, GstClockTime wait) {
   const GstObjectPtr<GstBus> bus{gst_element_get_bus(pipeline)};
   const auto types = static_cast<GstMessageType>(GST_MESSAGE_ERROR | GST_MESSAGE_EOS);
@@ -135,7 +135,7 @@ void RtspSession::on_report(GstElement*, GstStructure* sync, gpointer self) {
   if (const auto report = sender_report(sync)) session(self)->timing_.observe(*report);
 }
 
-/// The first stream that can be decoded: cameras list the main one first.
+/// Selects the first stream that can be decoded: cameras list the main one first.
 gboolean RtspSession::on_select_stream(GstElement*, guint, GstCaps* caps, gpointer self) {
   if (format_for(caps) == nullptr) return FALSE;
   return session(self)->has_selected_.exchange(true) ? FALSE : TRUE;
@@ -232,7 +232,7 @@ GstFlowReturn RtspSession::on_sample(GstAppSink* sink, gpointer self) {
   if (!sample) return GST_FLOW_EOS;
   try {
     session(self)->deliver(sample.get());
-  } catch (const std::exception&) {  // no memory for the picture; an exception must not pass through C
+  } catch (const std::exception&) {  // out of memory for the picture; an exception must not pass through C
     session(self)->exchange_.count_refused();
   }
   return GST_FLOW_OK;

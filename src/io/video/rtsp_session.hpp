@@ -15,7 +15,7 @@
 
 namespace geoloc::io {
 
-/// Throws std::runtime_error naming the element and its package where a GStreamer element is missing.
+/// Throws std::runtime_error naming the element and its package if a GStreamer element is missing.
 void require_rtsp_elements();
 
 /// One connection to a server: rtspsrc ! depayloader ! parser ! decoder ! videoconvert ! appsink. Frames go
@@ -29,7 +29,7 @@ class RtspSession {
   RtspSession(const RtspSession&) = delete;
   RtspSession& operator=(const RtspSession&) = delete;
 
-  /// Returns why the connection is over, or an empty text when `stop` was set.
+  /// Returns the reason why the connection ended, or an empty text if `stop` was set.
   std::string wait_until_over(const std::atomic<bool>& stop) const;
 
   bool has_delivered() const { return has_delivered_; }

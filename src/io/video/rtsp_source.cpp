@@ -55,7 +55,8 @@ class RtspSource::Impl {
     }
   }
 
-  /// One connection from beginning to end; true if frames came of it. Nothing may escape: the thread goes on.
+  /// Runs one connection from beginning to end; true if it delivered frames. It must not throw, because the
+  /// thread goes on.
   bool attempt() {
     exchange_.begin_attempt();
     bool has_delivered = false;

@@ -11,18 +11,18 @@
 
 namespace geoloc::io {
 
-/// What the packets and the reports of a stream tell about its frames. They come in different threads, so
-/// every call is safe from any.
+/// What the packets and reports of a stream tell about its frames. They arrive in different threads, so it is
+/// thread-safe.
 class StreamTiming {
  public:
-  /// `latency`: from exposure to arrival, for frames whose capture time the stream does not tell.
+  /// `latency` is from exposure to arrival, for frames whose capture time the stream does not tell.
   explicit StreamTiming(Duration latency) : latency_(latency), clock_(latency) {}
 
-  /// Returns how many packets were lost ahead of this one.
+  /// Returns the number of packets lost before this one.
   std::uint64_t observe(const RtpPacket& packet, HostTime received_at);
   void observe(const SenderReport& report);
 
-  /// A frame without its picture. Its RTP timestamp may have got lost in the decoder.
+  /// A frame without its picture. Its RTP timestamp may have been lost in the decoder.
   VideoFrame stamp(std::optional<std::uint32_t> rtp_timestamp, HostTime decoded_at);
 
  private:

@@ -18,8 +18,8 @@ struct UrlParts {
   std::string_view parameters;
 };
 
-/// The last "@" ends the secret, wherever it stands: a password with "/" or "@" in it must not show, and
-/// hiding a part of a path with "@" in it does no harm.
+/// The last "@" ends the secret, wherever it is: a password that contains "/" or "@" must not show, and
+/// hiding part of a path that contains "@" does no harm.
 UrlParts split(std::string_view url) {
   UrlParts parts;
   const auto scheme_end = url.find(kSchemeEnd);

@@ -82,7 +82,7 @@ class VideoFile::Impl {
     return encoder;
   }
 
-  /// Whether it came; throws where it is an error.
+  /// Whether the message came; throws if it is an error.
   bool wait_for_message(GstMessageType types, GstClockTime timeout) {
     const GstObjectPtr<GstBus> bus{gst_element_get_bus(pipeline_.get())};
     const GstMessagePtr message{gst_bus_timed_pop_filtered(bus.get(), timeout, types)};
@@ -97,7 +97,7 @@ class VideoFile::Impl {
   std::filesystem::path file_;
   PartialFile partial_;
   cv::Size size_;
-  GstPipelinePtr pipeline_;      // holds the file open: goes first
+  GstPipelinePtr pipeline_;      // keeps the file open: destroyed first
   GstAppSrc* source_ = nullptr;  // owned by the pipeline
 };
 

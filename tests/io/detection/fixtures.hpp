@@ -17,7 +17,7 @@ inline std::filesystem::path fixture(const std::string& name) {
   return std::filesystem::path{GEOLOC_TEST_DATA_DIR} / "onnx" / (name + ".onnx");
 }
 
-/// Those that were built in.
+/// The back ends that were built in.
 inline std::vector<Backend> backends() {
   if (has_openvino()) return {Backend::kOpencv, Backend::kOpenvino};
   return {Backend::kOpencv};

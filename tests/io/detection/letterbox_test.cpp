@@ -63,7 +63,7 @@ double edge_of(const cv::Mat& row_image) {
   return dark;
 }
 
-/// The fact that the mapping of boxes rests on: cv::resize keeps continuous edges.
+/// The mapping of boxes relies on this: cv::resize keeps continuous edges.
 TEST(Letterbox, AnEdgeInThePictureIsWhereTheMappingSaysItIs) {
   for (const int scaled_px : {320, 427, 640, 1000, 1280}) {
     cv::Mat picture{1, 640, CV_8UC1, cv::Scalar{200}};
@@ -75,8 +75,7 @@ TEST(Letterbox, AnEdgeInThePictureIsWhereTheMappingSaysItIs) {
   }
 }
 
-/// … and what it means for coordinates of pixel centres (Box::centre): they are half a pixel less on either
-/// side.
+/// What this means for coordinates of pixel centres (Box::centre): they are half a pixel less on either side.
 TEST(Letterbox, ThePixelAtACornerKeepsItsCorner) {
   const Letterbox letterbox = fit_letterbox({1280, 768}, {640, 384});
   const Box input_pixel{10, 20, 1, 1};

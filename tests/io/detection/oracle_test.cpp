@@ -38,7 +38,7 @@ bool is_same(const Detection& a, const Detection& b) {
          std::all_of(std::begin(differences), std::end(differences), is_small);
 }
 
-/// Every clear detection of one list is in the other.
+/// Expects that every clear detection of one list is in the other.
 void expect_contains(const std::vector<Detection>& all, const std::vector<Detection>& wanted,
                      const DetectionConfig& config) {
   for (const Detection& detection : wanted) {
@@ -60,7 +60,7 @@ void PrintTo(const Picture& picture, std::ostream* out) {
 
 class DefaultModel : public ::testing::TestWithParam<Picture> {};
 
-/// In the second picture the second look is in doubt of nine boxes, and looks again.
+/// In the second picture, the second look is doubtful about nine boxes and looks again.
 INSTANTIATE_TEST_SUITE_P(Pictures, DefaultModel,
                          ::testing::Values(Picture{"targets", 5}, Picture{"doubtful", 4}),
                          [](const auto& tested) { return tested.param.name; });

@@ -13,7 +13,7 @@
 #include "fixtures.hpp"
 
 // The networks are described in tools/fixtures/make_onnx_fixtures.py: the second look's score is how red the
-// middle of its patch is, what else it answers never changes.
+// middle of its patch is; its other outputs never change.
 namespace geoloc::io {
 namespace {
 
@@ -131,7 +131,7 @@ TEST(SecondLook, JudgesAlikeInAnyLight) {
   const Box box{44, 34, 24, 12};
   DetectionConfig config;
   config.confidence = 1e-6;
-  cv::Mat picture = with_red({192, 64}, {30, 20, 60, 40});  // not so red that the score would be at its limit
+  cv::Mat picture = with_red({192, 64}, {30, 20, 60, 40});  // not so red that the score would saturate
   picture(cv::Rect{40, 20, 10, 40}).setTo(cv::Scalar{0, 0, 200});
   auto detector = looking_at({box}, "second_look", config);
   const auto bright = detector.detect(picture);
@@ -161,8 +161,7 @@ TEST(SecondLook, TakesBoxesAtEveryEdgeOfPicturesOfAnySize) {
 }
 
 TEST(SecondLook, StatesNoSigmaOfABoxThatThePictureCuts) {
-  auto detector =
-      looking_at({{0, 20, 24, 24}});  // moved out of the picture's left edge it is not, but of its lower
+  auto detector = looking_at({{0, 20, 24, 24}});  // the box is moved beyond the lower edge, not the left one
   const auto found = detector.detect(cv::Mat{48, 192, CV_8UC3, kGrey});
   EXPECT_TRUE(found.empty());
   auto at_edge = looking_at({{180, 20, 12, 12}});

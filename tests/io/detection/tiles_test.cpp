@@ -114,7 +114,7 @@ TEST(MergedTiles, KeepClassesApartAndTheMostConfidentFirst) {
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_GE(found[i - 1].confidence, found[i].confidence);
 }
 
-/// Finds the one white square, if it is whole in what it is given and not too small a share of it.
+/// Finds the white square if it is entirely in the given picture and not too small in it.
 class SquareDetector final : public Detector {
  public:
   std::vector<Detection> detect(const cv::Mat& bgr) override {

@@ -52,7 +52,7 @@ std::string fault_of(const DetectorFiles& files, const DetectionConfig& config) 
   }
 }
 
-/// With each back end that was built in.
+/// Tests that run with each back end that was built in.
 class EachBackend : public ::testing::TestWithParam<Backend> {
  protected:
   YoloDetector detector(const std::string& model) const {
@@ -192,7 +192,8 @@ TEST_P(EachBackend, RefusesFilesThatAreNoModels) {
   EXPECT_NE(fault_of({folder.path(), {}}, with(GetParam())).find("cannot be read"), std::string::npos);
 }
 
-/// What OpenCV before 4.8 cannot run has a remedy; as of 4.8, and with OpenVINO, none is needed.
+/// The message about what OpenCV before 4.8 cannot run names a remedy; from 4.8 on, and with OpenVINO, none
+/// is needed.
 TEST(Backends, TakeExportsThatAreNotConverted) {
   constexpr bool kOpencvRunsExports =
       CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 8);

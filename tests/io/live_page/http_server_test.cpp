@@ -49,7 +49,7 @@ TEST_F(Server, EndsAClientThatDribblesItsRequest) {
   std::size_t sent = 0;
   while (sent < request.size() && client.send(request.substr(sent, 1)) && !client.is_ended(0ms)) {
     ++sent;
-    std::this_thread::sleep_for(20ms);  // each byte by itself would be in time
+    std::this_thread::sleep_for(20ms);  // each byte on its own would be in time
   }
   EXPECT_TRUE(client.is_ended(kPatience));
   EXPECT_LT(sent, request.size());
@@ -64,7 +64,7 @@ TEST_F(Server, EndsAClientThatTakesItsAnswerTooSlowly) {
     const std::string piece = client.read_until("\n\n", 1ms);
     if (piece.empty() && client.is_ended(1ms)) break;
     taken += piece.size();
-    std::this_thread::sleep_for(500ms);  // never silent for good, always behind
+    std::this_thread::sleep_for(500ms);  // never silent, but always behind
     ASSERT_LT(taken, 1U << 23U);
   }
   EXPECT_LT(taken, 1U << 23U);

@@ -31,7 +31,7 @@ std::string status_of(const std::string& answer) {
   return answer.substr(0, answer.find("\r\n"));
 }
 
-/// A page on a free port, with as few seconds of patience as a test wants.
+/// A page on a free port, with as short a timeout as a test needs.
 class Page : public ::testing::Test {
  protected:
   void open(const LivePageConfig& config = {}) {
@@ -132,7 +132,7 @@ TEST_F(Page, OneMoreThanAllowedIsToldSo) {
   EXPECT_EQ(status_of(ask(port, get_request("/events"))), "HTTP/1.1 503 Service Unavailable");
   clients.clear();
   const auto begin = Clock::now();
-  while (seconds_since(begin) < 20.0) {  // the places of those who left are free again
+  while (seconds_since(begin) < 20.0) {  // the places of clients that left become free again
     const LoopbackClient client(port);
     client.send(get_request("/events"));
     if (client.read_until("\n\n", kPatience).find("200 OK") != std::string::npos) return;

@@ -7,13 +7,13 @@
 
 namespace geoloc::io::testing {
 
-/// For what must come; only a slow machine needs it.
+/// How long to wait for what must come; only a slow machine needs so long.
 constexpr std::chrono::seconds kPatience{20};
 
-/// A TCP connection to a port of this computer that does as little of HTTP as a test wants.
+/// A TCP connection to a port of this computer that speaks as little HTTP as a test wants.
 class LoopbackClient {
  public:
-  /// Throws std::runtime_error where nobody listens. `receive_buffer`: bytes; 0 leaves the system's.
+  /// Throws std::runtime_error if nobody listens. `receive_buffer` is in bytes; 0 keeps the system's default.
   explicit LoopbackClient(std::uint16_t port, int receive_buffer = 0);
   ~LoopbackClient();
   LoopbackClient(const LoopbackClient&) = delete;
@@ -22,10 +22,10 @@ class LoopbackClient {
   /// False once the other side has closed.
   bool send(const std::string& text) const;
 
-  /// What comes until `ending` is part of it, the connection ends, or the time is over.
+  /// Reads until the text contains `ending`, the connection ends, or the time is over.
   std::string read_until(const std::string& ending, std::chrono::milliseconds timeout) const;
 
-  /// Whether the other side has ended the connection, within that time. Throws away what it said before.
+  /// Whether the other side ends the connection within that time. Discards what it sends before.
   bool is_ended(std::chrono::milliseconds timeout) const;
 
  private:

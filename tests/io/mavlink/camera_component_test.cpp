@@ -19,7 +19,7 @@ constexpr HostTime kBegin{std::chrono::seconds{1'795'300'000}};
 constexpr MavAddress kVehicle{1, 1};
 constexpr MavAddress kCamera{1, 105};
 
-/// A camera on a link, and what it said, decoded by the generated headers.
+/// A camera on a link, and what it sent, decoded by the generated headers.
 class CameraComponentTest : public ::testing::Test {
  protected:
   void SetUp() override { poll(0s); }
@@ -64,7 +64,7 @@ class CameraComponentTest : public ::testing::Test {
         std::count_if(said.begin(), said.end(), [&](const auto& message) { return message.msgid == id; }));
   }
 
-  /// Latitude of what it tracks.
+  /// Latitude of the tracked object.
   double tracked_latitude_deg(Duration after_start) {
     for (const mavlink_message_t& message : poll(after_start)) {
       if (message.msgid != MAVLINK_MSG_ID_CAMERA_TRACKING_GEO_STATUS) continue;

@@ -13,7 +13,7 @@ struct ReceivedFrame {
   Bytes bytes;
 };
 
-/// Keeps all that a VehicleLink delivers.
+/// Keeps everything that a VehicleLink delivers.
 class CollectingSink : public TelemetrySink {
  public:
   void on_attitude(const AttitudeSample& sample) override { attitudes.push_back(sample); }

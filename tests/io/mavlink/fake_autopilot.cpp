@@ -10,7 +10,7 @@
 namespace geoloc::io::testing {
 namespace {
 
-/// By the generated parser: what geoloc sends must satisfy others.
+/// Parses with the generated parser: what geoloc sends must satisfy other programs.
 mavlink_message_t parse(const std::uint8_t* frame, std::size_t size) {
   mavlink_message_t buffer{}, message{};
   mavlink_status_t state{}, status{};
@@ -42,7 +42,7 @@ void FakeAutopilot::receive(const std::uint8_t* frame, std::size_t size, HostTim
   heard_now.sender = {message.sysid, message.compid};
   heard_now.is_v2 = message.magic == MAVLINK_STX;
   heard_now.message_id = message.msgid;
-  // The generated decoders copy the payload out of the packed struct; its getters read it where it lies,
+  // The generated decoders copy the payload out of the packed struct; the getters would read it in place,
   // misaligned.
   if (message.msgid == MAVLINK_MSG_ID_HEARTBEAT) {
     mavlink_heartbeat_t heartbeat;

@@ -13,7 +13,7 @@
 
 namespace geoloc::io::testing {
 
-/// An autopilot in simulated time: HEARTBEAT unasked, the rest at the intervals that it was told.
+/// An autopilot in simulated time: it sends HEARTBEAT unrequested, and the rest at the requested intervals.
 class FakeAutopilot {
  public:
   struct Character {
@@ -22,7 +22,7 @@ class FakeAutopilot {
     bool obeys_intervals = true;
     bool obeys_data_streams = false;
     bool answers_timesync = true;
-    bool is_mute = false;  ///< switched off, or out of reach: hears and says nothing
+    bool is_mute = false;  ///< switched off or out of reach: receives and sends nothing
   };
 
   struct Heard {
@@ -43,7 +43,7 @@ class FakeAutopilot {
 
   void reboot(HostTime now);
   void receive(const std::uint8_t* frame, std::size_t size, HostTime now);
-  /// What it says up to `now`.
+  /// What it sends up to `now`.
   Bytes transmit(HostTime now);
   VehicleTime clock(HostTime now) const { return VehicleTime{now - booted_at_}; }
 
@@ -68,7 +68,7 @@ class FakeAutopilot {
   Bytes answers_;
 };
 
-/// A link and an autopilot, 10 ms of simulated time at a step: a frame arrives a step after it was sent.
+/// A link and an autopilot in steps of 10 ms of simulated time: a frame arrives one step after it was sent.
 class Session {
  public:
   static constexpr HostTime kStart{std::chrono::seconds{1'795'300'000}};

@@ -176,7 +176,7 @@ TEST(FrameParser, HardlyBelievesNoise) {
 }
 
 TEST(FrameParser, EndsOnAnyBytesOfItsOwnAlphabet) {
-  // Nothing but what starts frames, or claims to be long: the most work a stream can make.
+  // Only bytes that start frames or announce long ones: the most work that a stream can cause.
   std::mt19937 random(3);
   const std::uint8_t alphabet[] = {0xFD, 0xFE, 0xFF, 0, 1, 9, 28, 30, 33};
   FrameParser parser;

@@ -20,7 +20,7 @@ Bytes read_file(const std::filesystem::path& file) {
   return Bytes{std::istreambuf_iterator<char>(input), std::istreambuf_iterator<char>()};
 }
 
-/// Flips, cuts, repeats and overwrites pieces.
+/// Flips, removes, repeats and overwrites pieces.
 void damage(Bytes& bytes, std::mt19937& random) {
   const auto anywhere = [&] { return random() % bytes.size(); };
   for (int left = 1 + static_cast<int>(random() % 20); left > 0; --left) {
@@ -69,7 +69,7 @@ TEST(HostileBytes, NoiseDoesNoHarm) {
 }
 
 TEST(HostileBytes, RandomContentOfRightChecksumDoesNoHarm) {
-  // Noise hardly ever gets past the checksum: this is what a sender who means harm can say.
+  // Noise hardly ever passes the checksum: these are messages that a malicious sender could send.
   std::mt19937_64 random(3);
   Bytes messages(40'000);
   for (int i = 0; i < 20; ++i) {

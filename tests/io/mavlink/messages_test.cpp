@@ -114,8 +114,8 @@ INSTANTIATE_TEST_SUITE_P(Messages, DecodedLog, ::testing::Values("flight_v2", "l
                          [](const auto& log) { return std::string(log.param); });
 
 TEST(Messages, QuaternionAndEulerAnglesOfOneInstantAgree) {
-  // The autopilot sends the same attitude in both forms: a check of axes and signs that needs no decoder to
-  // trust.
+  // The autopilot sends the same attitude in both forms: a check of axes and signs that does not rely on
+  // another decoder.
   const Tlog log = read_tlog(testing::fixture("flight_v2.tlog"));
   FrameParser parser;
   std::optional<AttitudeSample> euler;

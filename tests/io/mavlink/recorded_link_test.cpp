@@ -57,8 +57,8 @@ TEST(RecordedLink, DeliversNothingOfOthersAndNothingBeforeTheFix) {
 }
 
 TEST(RecordedLink, FindsEveryGoodFrameWithoutTheLogsFraming) {
-  // The whole file as one stream of bytes: stamps are junk to the parser, and corrupt frames are not
-  // announced.
+  // The whole file as one stream of bytes: to the parser, time stamps are junk, and corrupt frames are not
+  // marked.
   std::ifstream file(testing::fixture("faults.tlog"), std::ios::binary);
   const testing::Bytes bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   CollectingSink framed, streamed;

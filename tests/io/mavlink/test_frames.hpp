@@ -15,14 +15,14 @@ constexpr std::uint8_t kArduPilot = 3;
 constexpr std::uint8_t kPx4 = 12;
 constexpr std::uint8_t kQuadrotor = 2;
 
-/// Frames of one sender, by the generated encoders: the other side of what is tested.
+/// Frames of one sender, made by the generated encoders, which are independent of the code under test.
 class FrameFactory {
  public:
   explicit FrameFactory(MavAddress self, bool use_v2 = true) : self_(self), use_v2_(use_v2) {}
 
   Bytes heartbeat(std::uint8_t autopilot = kArduPilot, std::uint8_t vehicle_type = kQuadrotor);
   Bytes attitude(VehicleTime time, double roll_rad = 0.0, double pitch_rad = 0.0, double yaw_rad = 0.0);
-  /// Level, nose to the north.
+  /// An attitude that is level, with the nose to the north.
   Bytes attitude_quaternion(VehicleTime time);
   Bytes position(VehicleTime time, double latitude_deg, double longitude_deg,
                  double height_above_home_m = 20.0);
@@ -30,7 +30,7 @@ class FrameFactory {
   Bytes ekf_status(std::uint16_t flags);
   Bytes system_time(VehicleTime time);
   Bytes timesync(std::int64_t tc1, std::int64_t ts1);
-  /// In the form of later dialects, which say whom it is for.
+  /// A TIMESYNC of later dialects, which state the receiver.
   Bytes timesync_to(MavAddress target, std::int64_t tc1, std::int64_t ts1);
   Bytes command_ack(std::uint16_t command, std::uint8_t result, MavAddress target = {});
   Bytes command_long(std::uint16_t command, MavAddress target, float parameter1, float parameter2 = 0.0F);

@@ -14,10 +14,9 @@ using namespace std::chrono_literals;
 
 const UdpEndpoint kAnyLoopbackPort{"127.0.0.1", 0};
 constexpr std::uint8_t kPing[] = {1, 2, 3};
-constexpr auto kLongEnough =
-    5000ms;  // loopback takes microseconds: this is for a stuck machine, not for the test
+constexpr auto kLongEnough = 5000ms;  // loopback takes microseconds; this long only on a stalled machine
 
-/// A socket of this computer, seen from another one.
+/// A port of this computer as a peer.
 UdpPeer loopback(std::uint16_t port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;

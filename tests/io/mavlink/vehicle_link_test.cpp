@@ -17,9 +17,9 @@ using testing::Bytes;
 using testing::FrameFactory;
 
 constexpr HostTime kStart{std::chrono::seconds{1'795'300'000}};
-constexpr std::int64_t kMark = 191;  // what marks a TIMESYNC of ours in the nanoseconds
+constexpr std::int64_t kMark = 191;  // marks our TIMESYNC requests in the nanoseconds
 
-/// A link that is spoken to by several at once; the vehicle's clock is 0 at kStart.
+/// A link on which several systems speak at once; the vehicle's clock is 0 at kStart.
 class VehicleLinkTest : public ::testing::Test {
  protected:
   bool hear(const Bytes& frame, Duration after_start) {
@@ -85,7 +85,7 @@ TEST_F(VehicleLinkTest, KeepsPositionsBackUntilTheVehicleKnowsWhereItIs) {
   hear(vehicle_.position(at(1300ms), 47.0, 8.0), 1300ms);
   EXPECT_EQ(sink_.positions.size(), 2U);
   EXPECT_EQ(sink_.positions.back().sigma_horizontal_m, 0.85);
-  for (const int flags : {1024, 0, 167}) {  // what ArduPilot goes through
+  for (const int flags : {1024, 0, 167}) {  // the states ArduPilot goes through
     hear(vehicle_.ekf_status(static_cast<std::uint16_t>(flags)), 1300ms);
     hear(vehicle_.position(at(1400ms), 47.0, 8.0), 1400ms);
   }

@@ -26,7 +26,7 @@ TEST(CircularError, HoldsThatShareOfSamples) {
   std::mt19937 generator(7);
   std::normal_distribution<double> normal;
   for (const double minor : {0.01, 0.1, 0.5, 0.9}) {
-    const double radius = circular_error(minor, 1.0, 0.9);  // whichever is named first
+    const double radius = circular_error(minor, 1.0, 0.9);  // whichever axis comes first
     constexpr int kSamples = 200'000;
     int within = 0;
     for (int i = 0; i < kSamples; ++i)

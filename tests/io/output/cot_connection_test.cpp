@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// On the loopback alone: the multicast group is never sent to on another interface.
+// Uses the loopback only: nothing is sent to the multicast group on another interface.
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -87,7 +87,7 @@ TEST(CotConnection, TcpComesBackWhenTheServerDoes) {
   server.emplace(SOCK_STREAM, port);
   ASSERT_TRUE(sender.connection.flush(10s));
   EXPECT_EQ(sender.connection.counts().connections, 2U);
-  EXPECT_EQ(sender.said.size(), 2U);  // it is told once that it went, and that it is back
+  EXPECT_EQ(sender.said.size(), 2U);  // reported once that it went, and once that it is back
   sender.connection.send("<two/>");
   client = accept(server->descriptor(), nullptr, nullptr);
   EXPECT_EQ(receive(client), "<two/>");
@@ -95,7 +95,7 @@ TEST(CotConnection, TcpComesBackWhenTheServerDoes) {
 }
 
 TEST(CotConnection, AServerThatTakesNothingIsGivenUpAndNothingWaits) {
-  const LoopbackSocket server(SOCK_STREAM);  // accepts in the system's queue, and never reads
+  const LoopbackSocket server(SOCK_STREAM);  // connections are accepted by the system's queue, and never read
   Connected sender(server.url("tcp"));
   ASSERT_TRUE(sender.connection.flush(5s));
   const std::string event(1000, 'x');

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names and figures that no format may choke on.
+// Names and numbers that no format may fail on.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -50,7 +50,7 @@ RunRecord run_of(const ObjectReport& object) {
   return run;
 }
 
-/// No control character but the newline, and as many tags opened as closed.
+/// Expects no control character except newlines, and as many tags opened as closed.
 void expect_sound_markup(const std::string& text) {
   int depth = 0;
   for (const char character : text) {

@@ -12,7 +12,7 @@
 
 namespace geoloc::testing {
 
-/// A socket of a test on 127.0.0.1; receiving and accepting give up after 5 s.
+/// A socket on 127.0.0.1 for tests; receiving and accepting time out after 5 s.
 class LoopbackSocket {
  public:
   explicit LoopbackSocket(int type, std::uint16_t port = 0) : descriptor_(socket(AF_INET, type, 0)) {
@@ -45,7 +45,7 @@ class LoopbackSocket {
   std::uint16_t port_ = 0;
 };
 
-/// What comes next, or nothing.
+/// What is received next, or an empty text.
 inline std::string receive(int descriptor, int flags = 0) {
   std::array<char, 2000> buffer;
   const ssize_t size = recv(descriptor, buffer.data(), buffer.size(), flags);

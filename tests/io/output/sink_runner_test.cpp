@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A door that the test opens.
+/// A gate that the test opens.
 class Gate {
  public:
   void open() {
@@ -33,7 +33,7 @@ class Gate {
   bool is_open_ = false;
 };
 
-/// What a sink was given; shared, since a stuck sink outlives its runner.
+/// What a sink was given; shared, because a stuck sink outlives its runner.
 struct Log {
   Gate gate;
   std::mutex mutex;

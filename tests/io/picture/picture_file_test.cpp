@@ -32,7 +32,7 @@ std::string fixture() {
   return {std::istreambuf_iterator<char>{stream}, {}};
 }
 
-/// Odd lengths, and a different colour in every corner.
+/// A picture with odd sides and a different colour in every corner.
 cv::Mat colours() {
   cv::Mat picture(37, 53, CV_8UC3);
   for (int y = 0; y < picture.rows; ++y) {

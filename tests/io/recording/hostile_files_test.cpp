@@ -13,7 +13,7 @@ namespace {
 
 using Reader = void (*)(const std::string&);
 
-/// Overwrites, cuts out and repeats pieces.
+/// Overwrites, removes and repeats pieces.
 std::string damaged(std::string text, std::mt19937& random) {
   for (int left = 1 + static_cast<int>(random() % 8); left > 0 && !text.empty(); --left) {
     const std::size_t at = random() % text.size();

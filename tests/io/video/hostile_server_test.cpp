@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 
 constexpr Duration kPatience = std::chrono::seconds{40};
 
-/// A TCP port on loopback that answers every request with the same bytes; or with nothing.
+/// A TCP port on the loopback that answers every request with the same bytes, or with nothing.
 class Listener {
  public:
   explicit Listener(std::string answer, int backlog = 8)
@@ -77,7 +77,7 @@ VideoConfig impatient() {
   return config;
 }
 
-/// Waits for a few failed attempts, looks for a thread that spins, and for secrets in what is shown.
+/// Waits for a few failed attempts, and checks that no thread spins and no secrets are shown.
 void expect_steady_failure(const std::string& url, const HostClock& clock) {
   const HostTime begun = clock.now();
   RtspSource source{url, impatient(), clock};
@@ -139,7 +139,7 @@ TEST(HostileServer, HasNoSuchStream) {
   expect_steady_failure("rtsp://pilot:secret@127.0.0.1:" + std::to_string(server.port()) + "/nothing", clock);
 }
 
-/// Not a measure of speed: a source that waits for its server would take the connection's timeout, a minute.
+/// Not a speed test: a source that waited for its server would take the connection's timeout, a minute.
 TEST(HostileServer, NeverHoldsUpTheEnd) {
   const HostClock clock;
   VideoConfig patient;

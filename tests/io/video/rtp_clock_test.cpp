@@ -59,7 +59,7 @@ TEST(RtpClock, OneReportIsUsedButNotTrusted) {
 TEST(RtpClock, TwoReportsThatAgreeGiveTheSendersTime) {
   const Sender sender;
   RtpClock clock{milliseconds{80}};
-  clock.observe(sender.report(kStart, milliseconds{-58}));  // as seen from a server that was still starting
+  clock.observe(sender.report(kStart, milliseconds{-58}));  // from a server that was still starting
   clock.observe(sender.report(kStart + milliseconds{200}));
   EXPECT_EQ(clock.capture_time(sender.timestamp(kStart), kStart + milliseconds{300}).quality,
             TimeQuality::kUnconfirmed);

@@ -19,7 +19,7 @@ using std::chrono::milliseconds;
 using test::RtspTestServer;
 using test::ServerOptions;
 
-/// How long a test waits for what must come; only a broken system takes so long.
+/// How long a test waits for what must come; only a faulty system takes so long.
 constexpr Duration kPatience = std::chrono::seconds{40};
 
 const HostClock& host_clock() {
@@ -27,7 +27,7 @@ const HostClock& host_clock() {
   return clock;
 }
 
-/// The first frame that satisfies the wish.
+/// The first frame that satisfies the condition.
 std::optional<VideoFrame> wait_for(VideoSource& source, const std::function<bool(const VideoFrame&)>& wish) {
   const HostTime begun = host_clock().now();
   while (host_clock().now() - begun < kPatience) {
@@ -121,7 +121,7 @@ TEST(RtspSource, ASlowCallerGetsTheNewestFrame) {
   ASSERT_TRUE(wait_for_status(source, [](const VideoStatus& status) { return status.frames >= 15; }));
   const auto late = source.next(kPatience);
   ASSERT_TRUE(late);
-  EXPECT_GE(late->captured_at - early->captured_at, milliseconds{500});  // ten frames of twenty a second
+  EXPECT_GE(late->captured_at - early->captured_at, milliseconds{500});  // ten frames at twenty per second
   EXPECT_GE(source.status().dropped, 10U);
 }
 

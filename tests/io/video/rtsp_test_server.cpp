@@ -15,8 +15,8 @@
 namespace geoloc::io::test {
 namespace {
 
-/// Without this, a GStreamer server shifts its reports by the latency of its pipeline. There is a hook for it
-/// only in the class of the media.
+/// Without this, a GStreamer server shifts its reports by the latency of its pipeline. The only hook for it
+/// is in the class of the media.
 struct HonestMedia {
   GstRTSPMedia parent;
 };
@@ -149,8 +149,8 @@ class RtspTestServer::Impl {
     return GST_PAD_PROBE_OK;
   }
 
-  /// The truth is the picture's place on the pipeline's clock, which is the monotonic one: exact on a slow
-  /// machine too.
+  /// The truth is the picture's time on the pipeline's clock, which is the monotonic one: exact even on a
+  /// slow machine.
   void stamp(GstElement* element, GstPad* pad, GstBuffer* buffer, GstPadProbeInfo* info) const {
     GST_PAD_PROBE_INFO_DATA(info) = buffer;
     const std::chrono::nanoseconds on_clock{gst_element_get_base_time(element) + GST_BUFFER_PTS(buffer)};

@@ -16,13 +16,12 @@ struct ServerOptions {
       "x264enc tune=zerolatency speed-preset=ultrafast key-int-max=10 ! h264parse ! rtph264pay";
   int width_px = 320;
   int height_px = 240;
-  bool has_utc = true;     ///< else its sender reports are on a clock that began when it did
+  bool has_utc = true;     ///< otherwise its sender reports use a clock that starts with the server
   std::uint16_t port = 0;  ///< 0: chosen by the system
 };
 
-/// A camera of 20 frames a second at rtsp://127.0.0.1:port/camera, with a key frame twice a second and
-/// several sender reports a second. Every picture carries the time it stands for. Dies with all its
-/// connections.
+/// A camera of 20 frames per second at rtsp://127.0.0.1:port/camera, with two key frames and several sender
+/// reports per second. Every picture shows its own time. Its destructor ends all connections.
 class RtspTestServer {
  public:
   RtspTestServer(const ServerOptions& options, const HostClock& clock);
@@ -33,7 +32,7 @@ class RtspTestServer {
   std::uint16_t port() const;
   std::string url() const;
 
-  void freeze(bool frozen);      ///< connected, but nothing comes
+  void freeze(bool frozen);      ///< stays connected, but sends nothing
   void lose_packets(int count);  ///< the next ones of the stream
   void resize(int width_px, int height_px);
 
@@ -42,7 +41,7 @@ class RtspTestServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The time that a picture of the server carries; nullopt where it cannot be read.
+/// The time shown in a picture of the server; nullopt if it cannot be read.
 std::optional<HostTime> stamped_time(const cv::Mat& bgr);
 
 }  // namespace geoloc::io::test

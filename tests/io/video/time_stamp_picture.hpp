@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
-// A number drawn into a picture as black and white cells, to come through a video codec unharmed: 64 bits and
-// a check byte in nine rows of eight cells from the top-left corner.
+// A number drawn into a picture as black and white cells that survive a video codec: 64 bits and a check byte
+// in nine rows of eight cells from the top-left corner.
 namespace geoloc::io::test {
 
 constexpr int kCellPx = 16;

@@ -23,7 +23,7 @@ cv::Mat grey(int level, cv::Size size) {
   return cv::Mat(size, CV_8UC3, cv::Scalar::all(level));
 }
 
-/// Each picture is as bright as its number tells, and comes back so, at its time.
+/// Expects each picture to come back with the brightness of its number, at its time.
 void expect_comes_back(const std::filesystem::path& file, cv::Size size) {
   const HostClock clock;
   FileSource source{file, {Pace::kAsTaken, HostTime{}}, {}, clock};
@@ -72,7 +72,7 @@ TEST(VideoFile, ThatCannotBeWrittenIsNamedAndHoldsNobodyUp) {
   }
 }
 
-/// No file of this process may grow beyond so many bytes, as on a full disk.
+/// Limits the size of this process' files, as on a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t most_bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

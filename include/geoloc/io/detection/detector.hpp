@@ -14,7 +14,7 @@ struct DetectorCounts {
   std::uint64_t images = 0;           ///< given to detect()
   std::uint64_t unusable_images = 0;  ///< empty, or not 8 bits with 1, 3 or 4 channels
   std::uint64_t failed_images = 0;    ///< the network failed on them
-  std::uint64_t rejected_boxes = 0;   ///< with a size or a score that cannot be
+  std::uint64_t rejected_boxes = 0;   ///< with an impossible size or score
 };
 
 /// Finds objects in pictures. Used by one thread at a time.
@@ -23,8 +23,7 @@ class Detector {
   virtual ~Detector() = default;
 
   /// `bgr`: 8 bits with 3 channels, or 1 (grey), or 4 (the last one ignored). Boxes are in pixels of that
-  /// picture, inside it, most confident first. Never throws: whatever goes wrong is counted, and gives no
-  /// detections.
+  /// picture, clipped to it, most confident first. Never throws: failures are counted and give no detections.
   virtual std::vector<Detection> detect(const cv::Mat& bgr) = 0;
 
   /// class_names()[Detection::class_id].

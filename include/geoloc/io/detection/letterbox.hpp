@@ -10,7 +10,7 @@ struct ImageSize {
   int height_px = 0;
 };
 
-/// Where a picture lies in a network's input: scaled to fit, its proportions kept, in the middle between grey
+/// Where a picture lies in a network's input: scaled to fit with its aspect ratio kept, centred between grey
 /// bars.
 ///
 /// Boxes have continuous edges (camera/detection.hpp), and cv::resize keeps those: it samples the source at

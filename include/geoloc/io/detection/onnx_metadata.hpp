@@ -16,12 +16,12 @@ namespace geoloc::io {
 /// An input or output of an ONNX graph.
 struct OnnxTensor {
   std::string name;
-  std::vector<std::int64_t> shape;  ///< kUnknownLength where a length is given by name or not at all
+  std::vector<std::int64_t> shape;  ///< kUnknownLength where a length is symbolic or missing
 };
 
 constexpr std::int64_t kUnknownLength = -1;
 
-/// What OpenCV's importer keeps to itself.
+/// What OpenCV's importer does not expose.
 struct OnnxMetadata {
   std::int64_t opset = 0;          ///< of the operators of ONNX itself
   std::vector<OnnxTensor> inputs;  ///< without those that have a constant value

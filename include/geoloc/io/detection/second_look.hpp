@@ -11,10 +11,10 @@
 
 namespace geoloc::io {
 
-/// Looks once more, and closer, at each box that another detector proposes: a small network sees the box and
-/// its surroundings, all of one size and in one light, and says whether it is such an object, where exactly
-/// its centre is, and how exactly it knows. That tells objects from look-alikes, and small ones from nothing,
-/// better than a network can that has a whole picture to go through.
+/// Looks again, and closer, at each box that another detector proposes. A small network sees the box and its
+/// surroundings, normalised in size and brightness, and says whether the box holds such an object, where its
+/// centre is, and how accurate that is. It distinguishes objects from look-alikes, and small ones from
+/// background, better than a network that has to search a whole picture.
 ///
 /// The network: ONNX, patches [batch, 3, side, side] (docs/detection.md) to answers [batch, 6].
 class SecondLookDetector final : public Detector {

@@ -10,8 +10,9 @@
 
 namespace geoloc::io {
 
-/// Looks at a picture as a whole and at each of its tiles (tiles.hpp): small things in large pictures are
-/// found that vanish when all of it is scaled down to a network's input. It costs 1 + tiles times as much.
+/// Searches a picture as a whole and each of its tiles (tiles.hpp). This finds small objects in large
+/// pictures, which vanish when the whole picture is scaled down to a network's input. It costs 1 + tiles
+/// times as much.
 class TiledDetector final : public Detector {
  public:
   /// Throws std::invalid_argument for a bad configuration.

@@ -10,9 +10,9 @@
 
 namespace geoloc::io {
 
-/// The configuration's grid of overlapping tiles, row by row: all of one size, together the whole picture.
-/// Whatever is no longer than the overlap lies in one of them entirely. Where the picture is too small for
-/// the overlap it is half a tile.
+/// The configuration's grid of overlapping tiles, row by row: all of one size, together covering the whole
+/// picture. Whatever is no longer than the overlap lies entirely within one of them. If the picture is too
+/// small for that overlap, the overlap is half a tile.
 std::vector<cv::Rect> tiles_of(ImageSize picture, const DetectionConfig& config);
 
 /// Detections of one tile, in the whole picture's pixels.
@@ -21,11 +21,11 @@ struct TileDetections {
   std::vector<Detection> detections;
 };
 
-/// One list of what was found in the tiles and what was found in the picture as a whole, most confident
-/// first. What touches an inner edge of its tile is cut off there, and dropped: another tile has it, or the
-/// whole picture. Of boxes of a class that overlap (nms_iou) or contain half of one another, the one that
-/// stays is, in this order: from the whole picture and longer than the overlap; from a tile; the more
-/// confident.
+/// Merges the detections of the tiles and those of the whole picture, most confident first. A box that
+/// touches an inner edge of its tile is cut off there and dropped, because another tile or the whole picture
+/// has it whole. Where boxes of a class overlap (nms_iou) or contain half of one another, the one that is
+/// kept is, in this order: one from the whole picture that is longer than the overlap; one from a tile; the
+/// more confident one.
 std::vector<Detection> merge_tiles(const std::vector<TileDetections>& in_tiles,
                                    const std::vector<Detection>& in_whole, ImageSize picture,
                                    const DetectionConfig& config);

@@ -15,20 +15,20 @@ namespace geoloc::io {
 
 struct DetectorFiles {
   std::filesystem::path model;  ///< ONNX, output [1, 4 + classes, candidates] (yolo_decode.hpp)
-  std::optional<std::filesystem::path> class_names;  ///< a name a line; without it, those in the model
-  /// Network for second looks (second_look.hpp); empty: none; without it, the one that the model's metadata
-  /// name, beside the model.
+  std::optional<std::filesystem::path> class_names;  ///< one name per line; without it, those in the model
+  /// Network for second looks (second_look.hpp); empty: none; unset: the one that the model's metadata name,
+  /// beside the model.
   std::optional<std::filesystem::path> second_look = {};
 };
 
-/// A YOLO network run on the CPU over whole pictures; tiles and second looks are not for it
-/// (open_detector()).
+/// A YOLO network run on the CPU over whole pictures. It ignores the settings of tiles and second looks,
+/// which open_detector() applies.
 class YoloDetector final : public Detector {
  public:
-  /// Reads the model and runs it once, so that whatever is wrong with it is found here. Throws
-  /// std::runtime_error naming the file, the fault and the remedy; std::invalid_argument for a bad
-  /// configuration. Sets the number of OpenCV's threads, which the whole program shares, if OpenCV is the
-  /// back end and the configuration names one.
+  /// Reads the model and runs it once, so that any fault in it is found here. Throws std::runtime_error
+  /// naming the file, the fault and the remedy; std::invalid_argument for a bad configuration. Sets the
+  /// number of OpenCV's threads, which the whole program shares, if OpenCV is the back end and the
+  /// configuration names one.
   YoloDetector(const DetectorFiles& files, const DetectionConfig& config);
   ~YoloDetector() override;
   YoloDetector(const YoloDetector&) = delete;
@@ -45,8 +45,8 @@ class YoloDetector final : public Detector {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The detector that files and configuration ask for: on whole pictures, or on their tiles as well; with a
-/// second look, or without. Throws as YoloDetector does.
+/// The detector that files and configuration specify: with or without tiles, with or without a second look.
+/// Throws as YoloDetector does.
 std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& config);
 
 /// Whether Backend::kOpenvino can be chosen.

@@ -13,7 +13,7 @@ namespace geoloc::io {
 nlohmann::ordered_json camera_to_json(const CameraConfig& camera);
 
 /// Reads that object over `camera`. In place of fx fy cx cy it takes `horizontal_fov_deg`. Extra keys are
-/// refused only where `strict`. Faults are added to `problems`, named below `path`.
+/// rejected only if `strict`. Faults are added to `problems` with their paths below `path`.
 void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict,
                       CameraConfig& camera, std::vector<std::string>& problems);
 

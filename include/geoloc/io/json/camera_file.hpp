@@ -8,7 +8,7 @@
 
 namespace geoloc::io {
 
-/// Reads camera.json, or the YAML that OpenCV's calibration and ROS' camera_info write (which hold no mount:
+/// Reads camera.json, or the YAML that OpenCV's calibration and ROS' camera_info write (which have no mount:
 /// it stays as in `defaults`). Throws std::runtime_error naming the file and every fault.
 CameraConfig read_camera_file(const std::filesystem::path& file, const CameraConfig& defaults = {});
 

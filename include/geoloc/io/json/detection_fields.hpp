@@ -7,7 +7,7 @@
 
 namespace geoloc::io {
 
-/// As frames.jsonl has it: `box`, `confidence`, `class_id`, and `sigma_px` where it is stated.
+/// The object of frames.jsonl: `box`, `confidence`, `class_id`, and `sigma_px` where it is stated.
 nlohmann::ordered_json detection_to_json(const Detection& detection);
 
 }  // namespace geoloc::io

@@ -7,7 +7,7 @@
 
 namespace geoloc::io {
 
-/// A place in the notations that people copy into other tools; WGS84.
+/// A position (WGS84) in the notations that people copy into other tools.
 struct CoordinateTexts {
   std::string degrees;  ///< "-22.90612346, -43.13398765"
   std::string dms;      ///< "22°54′22.044″S 43°08′02.356″W"
@@ -15,7 +15,7 @@ struct CoordinateTexts {
   std::string mgrs;     ///< "23KPQ9144265634", to the metre
 };
 
-/// All four are empty for a place that is not on Earth.
+/// All four are empty for coordinates that are not on Earth.
 CoordinateTexts coordinate_texts(const Geodetic& place);
 
 }  // namespace geoloc::io

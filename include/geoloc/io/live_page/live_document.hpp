@@ -17,19 +17,19 @@
 
 namespace geoloc::io {
 
-/// What the page says of a run before anything happened.
+/// What the page shows about a run before anything has happened.
 struct LivePageTitle {
   std::string name;     ///< of the run: the stream, or the recording
   bool is_live = true;  ///< otherwise a recording is replayed
 };
 
-/// The state of a run as pages see it. Any thread may call any of it; nothing here grows without bound.
+/// The state of a run as pages see it. Thread-safe; memory is bounded.
 ///
-/// There are no queues: every part carries the revision at which it changed last, and a page is told what
-/// changed since the revision it has. One that is slow gets the newest state, later.
+/// There are no queues: every part has the revision of its last change, and a page is sent what has changed
+/// since the revision it has. A slow page gets the newest state later.
 class LiveDocument {
  public:
-  /// How far a page is; a new one begins with the default and gets everything.
+  /// The revision that a page has reached. A new page starts with the default and gets everything.
   struct Cursor {
     std::uint64_t revision = 0;
     std::uint64_t path = 0;   ///< points of the trajectory
@@ -44,7 +44,7 @@ class LiveDocument {
   void add(const RunRecord& run);
   /// A newer picture of the video can be fetched.
   void announce_picture(std::uint64_t number);
-  /// The run is over; what is known stays to be looked at.
+  /// The run is over; its last state can still be viewed.
   void end();
 
   /// Waits until there is something newer than the cursor; false after `timeout`, and once closed.
@@ -53,13 +53,13 @@ class LiveDocument {
   /// Waits until then; returns early once closed.
   void pause_until(std::chrono::steady_clock::time_point time) const;
 
-  /// A JSON object of what a page at the cursor lacks; the cursor moves on.
+  /// The changes since the cursor as a JSON object; advances the cursor.
   std::string changes(Cursor& cursor) const;
 
   /// JSON of one object: its coordinates in several notations, and its history. nullopt for an unknown id.
   std::optional<std::string> object(std::uint64_t id) const;
 
-  /// Wakes everybody who waits, for good.
+  /// Wakes all waiting threads, and keeps them from waiting again.
   void close();
   bool is_closed() const;
 
@@ -70,7 +70,7 @@ class LiveDocument {
     int hits;
     double sigma_major_m;
   };
-  /// Something that is sent whole, and only where it has changed.
+  /// A part that is sent as a whole, and only if it has changed.
   struct Part {
     std::string json;
     std::uint64_t revision = 0;  // of the last change

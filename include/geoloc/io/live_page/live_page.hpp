@@ -15,8 +15,8 @@ namespace geoloc::io {
 
 class HttpServer;
 
-/// A page that shows a run in any browser, served over HTTP by threads of its own. What is added costs its
-/// caller the same whoever looks: pages wait for the run, the run never waits for a page.
+/// A page that shows a run in any browser, served over HTTP by its own threads. Adding to it costs the caller
+/// the same however many pages are open: pages wait for the run, but the run never waits for a page.
 class LivePage {
  public:
   /// Listens at once. Throws std::runtime_error that names the endpoint, the reason and the remedy, and
@@ -47,7 +47,7 @@ class LivePage {
   std::unique_ptr<HttpServer> server_;  // last: it uses all of the above
 };
 
-/// Feeds a page that stays after the run's end, until nobody holds it any more.
+/// Feeds a page that outlives the run, until its last owner releases it.
 class LivePageSink final : public Sink {
  public:
   explicit LivePageSink(std::shared_ptr<LivePage> page) : page_(std::move(page)) {}

@@ -11,12 +11,13 @@
 
 namespace geoloc::io {
 
-/// What matters of a request; all of it is as it arrived.
+/// The relevant parts of a request, unchecked.
 struct PageRequest {
   std::string method;
   std::string path;        ///< without the query
   std::string host;        ///< header Host
-  std::string fetch_site;  ///< headers Sec-Fetch-Site and -Mode: browsers say on whose behalf they ask
+  std::string fetch_site;  ///< headers Sec-Fetch-Site and -Mode: the browser's statement on whose behalf it
+                           ///< sends the request
   std::string fetch_mode;
 };
 
@@ -29,8 +30,9 @@ struct PageAnswer {
 
 using Headers = std::vector<std::pair<std::string, std::string>>;
 
-/// Whether a Host header names this computer. A page elsewhere can make a browser connect here by a name of
-/// its own that resolves to our address (DNS rebinding); it cannot do so by an address, nor by our own names.
+/// Whether a Host header names this computer. A page of another site can make a browser connect here through
+/// a name of that site that resolves to our address (DNS rebinding). It cannot do so through an address or
+/// one of our own names.
 bool is_own_host(const std::string& host_header, const std::vector<std::string>& own_names);
 
 /// "localhost", this computer's name, and the host that was asked for.
@@ -39,7 +41,7 @@ std::vector<std::string> names_of_this_computer(const std::string& given_host);
 /// "17" of "/objects/17".
 std::optional<std::uint64_t> object_of_path(const std::string& path);
 
-/// The page's addresses. No input or output: a request in, an answer out; any thread may ask.
+/// The page's addresses: a request in, an answer out, without any input or output of its own. Thread-safe.
 class LiveSite {
  public:
   /// Document and board must outlive it.
@@ -48,7 +50,7 @@ class LiveSite {
 
   PageAnswer answer(const PageRequest& request) const;
 
-  /// Of every answer: what a browser may do with it.
+  /// Headers of every answer: what a browser may do with it.
   const Headers& headers() const { return headers_; }
 
  private:

@@ -23,19 +23,19 @@ struct LivePicture {
   std::vector<Detection> detections;  ///< boxes in the frame's pixels
 };
 
-/// The newest picture, for those who look. Any thread may call any of it.
+/// The newest picture, for pages that show it. Thread-safe.
 class PictureBoard {
  public:
-  /// `class_names`: for the boxes; a class without a name is called by its number.
+  /// `class_names` are for the boxes; a class without a name is shown as its number.
   PictureBoard(std::vector<std::string> class_names, std::chrono::milliseconds period);
 
-  /// Whether somebody looks, and the last picture is old enough: otherwise there is no need to make one.
+  /// Whether a page is watching and the last picture is old enough; otherwise there is no need to make one.
   bool wants_picture() const;
 
   /// Returns its number, from 1.
   std::uint64_t show(LivePicture picture);
 
-  /// A page looks: pictures are wanted for some seconds from now.
+  /// A page is watching: pictures are wanted for the next few seconds.
   void note_viewer();
 
   /// JSON of the boxes and the picture in one piece: 4 bytes of the JSON's length (little endian), the JSON,

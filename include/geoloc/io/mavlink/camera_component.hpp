@@ -14,10 +14,10 @@
 
 namespace geoloc::io {
 
-/// A camera of the vehicle by MAVLink's camera protocol: it says that it is there, answers what a ground
-/// station asks of a camera that tracks, and tells where the tracked object is. That is the one selected by
-/// MAV_CMD_CAMERA_TRACK_POINT, otherwise the nearest. It does no input or output and reads no clock; it obeys
-/// nothing that could do harm.
+/// A camera of the vehicle in MAVLink's camera protocol. It announces itself, answers the requests that
+/// ground stations send to a tracking camera, and reports the position of the tracked object: the one
+/// selected by MAV_CMD_CAMERA_TRACK_POINT, otherwise the nearest. It does no input or output and reads no
+/// clock, and it obeys no command that could do harm.
 class CameraComponent {
  public:
   using Send = std::function<void(const std::uint8_t* frame, std::size_t size)>;
@@ -35,10 +35,10 @@ class CameraComponent {
   void poll(HostTime now, const std::optional<MavAddress>& vehicle, bool is_v2, const Send& send);
 
  private:
-  /// A message that can be had at an interval.
+  /// A message that can be requested at an interval.
   struct Stream {
     std::uint32_t message_id;
-    std::optional<Duration> period;  ///< nullopt: not sent unasked
+    std::optional<Duration> period;  ///< nullopt: sent only on request
     std::optional<HostTime> sent_at;
   };
 

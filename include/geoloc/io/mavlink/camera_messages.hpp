@@ -8,14 +8,14 @@
 
 namespace geoloc::io {
 
-/// Writes what a camera component says: MAVLink 2, for most of it has no place in MAVLink 1. Each call uses
-/// up a sequence number.
+/// Writes the messages of a camera component in MAVLink 2, because most of them do not exist in MAVLink 1.
+/// Each call uses one sequence number.
 class CameraWriter {
  public:
   OutgoingFrame heartbeat(MavAddress self);
   OutgoingFrame command_ack(MavAddress self, MavAddress to, std::uint16_t command, std::uint8_t result);
 
-  /// CAMERA_INFORMATION: tracks points of the image and tells their geographic position.
+  /// CAMERA_INFORMATION: tracks points of the image and reports their geographic position.
   OutgoingFrame information(MavAddress self, VehicleTime time, const CameraIntrinsics& image);
 
   /// CAMERA_FOV_STATUS.

@@ -21,7 +21,7 @@ struct CameraTarget {
   std::optional<Eigen::Vector2d> image_point;
 };
 
-/// What a camera saw last.
+/// The camera's last view.
 struct CameraView {
   HostTime captured_at;
   VehicleTime time;

@@ -16,27 +16,28 @@ struct OutgoingFrame {
   std::size_t size = 0;
 };
 
-/// Writes the few messages that geoloc says. Each call uses up a sequence number of the sender.
+/// Writes the few messages that geoloc sends. Each call uses one sequence number of the sender.
 class CommandWriter {
  public:
-  /// A MAVLink 1 link is answered in MAVLink 1: some autopilots would change the whole link over otherwise.
+  /// On a MAVLink 1 link it sends MAVLink 1, because some autopilots would otherwise switch the whole link to
+  /// MAVLink 2.
   void use_v2(bool use_v2) { use_v2_ = use_v2; }
 
   /// HEARTBEAT of an onboard computer.
   OutgoingFrame heartbeat(MavAddress self);
 
-  /// MAV_CMD_SET_MESSAGE_INTERVAL: asks `vehicle` for `message_id` `rate_hz` times a second.
+  /// MAV_CMD_SET_MESSAGE_INTERVAL: asks `vehicle` to send `message_id` at `rate_hz`.
   OutgoingFrame set_message_interval(MavAddress self, MavAddress vehicle, std::uint32_t message_id,
                                      double rate_hz);
 
-  /// REQUEST_DATA_STREAM: a whole group of messages, from autopilots that know nothing newer.
+  /// REQUEST_DATA_STREAM: a whole group of messages, for autopilots that support nothing newer.
   OutgoingFrame request_data_stream(MavAddress self, MavAddress vehicle, std::uint8_t stream_id,
                                     double rate_hz);
 
   /// TIMESYNC request: requester_ns comes back with the answer.
   OutgoingFrame timesync_request(MavAddress self, std::int64_t requester_ns);
 
-  /// STATUSTEXT for people, of which 50 characters of ASCII are said.
+  /// STATUSTEXT for people, limited to 50 characters of ASCII.
   OutgoingFrame status_text(MavAddress self, const std::string& text);
 
  private:

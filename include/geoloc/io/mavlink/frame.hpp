@@ -6,7 +6,7 @@
 
 namespace geoloc::io {
 
-/// Who speaks on a MAVLink network: a vehicle or station, and a part of it.
+/// A sender on a MAVLink network: a vehicle or station, and one of its components.
 struct MavAddress {
   std::uint8_t system = 0;
   std::uint8_t component = 0;

@@ -16,7 +16,7 @@ struct FrameCounts {
   std::uint64_t frames = 0;         ///< checked and handed out
   std::uint64_t signed_frames = 0;  ///< of those, with a signature (not verified)
   std::uint64_t bad_frames = 0;     ///< the header of a known message, but a checksum or length that is wrong
-  std::uint64_t unknown_frames = 0;  ///< of messages that no dialect here knows: cannot be checked, left out
+  std::uint64_t unknown_frames = 0;  ///< of unknown messages: ignored, as they cannot be checked
   std::uint64_t junk_bytes = 0;
 };
 
@@ -24,9 +24,9 @@ struct FrameCounts {
 /// empty.
 ///
 /// A good frame is found whatever came before it: after a wrong checksum the search goes on one byte further,
-/// not behind the length that a damaged header claimed. The price: a frame that is cut short is known as such
-/// only when as many bytes have followed as its header promises (280 at most); those behind it wait as long.
-/// Signatures are skipped, not verified. No allocation, no state outside the object.
+/// not behind the length that a damaged header claimed. The price: a truncated frame is recognised only when
+/// as many bytes have followed as its header announces (280 at most), and the frames after it wait as long.
+/// Signatures are skipped, not verified. The parser does not allocate and has no state outside the object.
 class FrameParser {
  public:
   /// Takes in as much as there is room for and returns how much that was: at least one byte of a non-empty
@@ -42,9 +42,9 @@ class FrameParser {
  private:
   static constexpr std::size_t kCapacity = 4096;
 
-  /// The bytes that the header of a frame claims which was not handed out: a bad one, or one of an unknown
-  /// message, which is taken for a frame if no good one starts within. What looks bad inside is not counted
-  /// again.
+  /// The bytes claimed by the header of a frame that was not returned: a bad frame, or one of an unknown
+  /// message, which is taken for a frame if no good one starts within it. Bad frames inside these bytes are
+  /// not counted again.
   struct Claim {
     bool is_unknown = false;
     MavAddress sender;

@@ -15,13 +15,13 @@ namespace geoloc::io {
 /// What became of the vehicle's messages.
 struct TelemetryCounts {
   std::uint64_t vehicle_frames = 0;
-  std::uint64_t foreign_frames = 0;  ///< of other systems and components, and all before a vehicle was heard
-  std::uint64_t attitudes = 0;       ///< delivered
-  std::uint64_t positions = 0;       ///< delivered
-  std::uint64_t second_attitudes = 0;  ///< ATTITUDE_QUATERNION beside ATTITUDE: left out
-  std::uint64_t no_fix_positions = 0;  ///< of a vehicle that did not know where it was: left out
+  std::uint64_t foreign_frames = 0;    ///< of other senders, and all frames before a vehicle was heard
+  std::uint64_t attitudes = 0;         ///< delivered
+  std::uint64_t positions = 0;         ///< delivered
+  std::uint64_t second_attitudes = 0;  ///< ATTITUDE_QUATERNION in addition to ATTITUDE: ignored
+  std::uint64_t no_fix_positions = 0;  ///< of a vehicle that did not know its position: ignored
   std::uint64_t refused_values = 0;    ///< not finite, or out of range
-  std::uint64_t suspect_stamps = 0;    ///< far from the times around them
+  std::uint64_t suspect_stamps = 0;    ///< far from the previous ones
   std::uint64_t reboots = 0;
   std::uint64_t foreign_timesyncs = 0;  ///< requests, and answers to others
 };

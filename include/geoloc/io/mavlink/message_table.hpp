@@ -6,7 +6,7 @@
 
 namespace geoloc::io {
 
-/// What a receiver must know of a message to check its frames.
+/// What a receiver must know about a message to check its frames.
 struct MessageSpec {
   std::uint8_t checksum_seed;  ///< CRC_EXTRA: a hash of the message's fields
   std::uint8_t base_size;      ///< payload without MAVLink 2 extensions

@@ -27,7 +27,7 @@ struct AttitudeMessage {
   bool from_quaternion = false;
 };
 
-/// GPS_RAW_INT: the first receiver alone. Its own position is not used: the autopilot's estimate is better.
+/// GPS_RAW_INT: the first receiver only. Its own position is not used: the autopilot's estimate is better.
 struct GnssStatus {
   std::uint8_t fix_type = 0;                 ///< GPS_FIX_TYPE: 3 and more have a position
   std::optional<double> sigma_horizontal_m;  ///< h_acc, where the receiver states it (never in MAVLink 1)
@@ -47,7 +47,7 @@ struct Timesync {
   MavAddress target;              ///< of an answer, where the sender states it; else 0, 0
 };
 
-/// SYSTEM_TIME. Its UNIX time is not read: 0 before GPS time, and it has been seen centuries wrong.
+/// SYSTEM_TIME. Its UNIX time is ignored: it is 0 before GPS time, and has been seen to be centuries off.
 struct SystemTime {
   VehicleTime time;
 };
@@ -58,7 +58,7 @@ struct CommandAck {
   MavAddress target;          ///< whose command it was, where the sender states it; else 0, 0
 };
 
-/// COMMAND_LONG: what somebody asks of a component.
+/// COMMAND_LONG: a request to a component.
 struct Command {
   std::uint16_t command = 0;  ///< MAV_CMD
   MavAddress target;          ///< a component of 0: all
@@ -68,17 +68,17 @@ struct Command {
 /// A message that geoloc has no use for.
 struct NotDecoded {};
 
-/// A message with values that cannot be: not finite, or out of range.
+/// A message with impossible values: not finite, or out of range.
 struct RefusedValues {};
 
 using Message = std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessage, PositionSample,
                              GnssStatus, EstimatorStatus, Timesync, SystemTime, CommandAck>;
 
-/// Payloads that MAVLink 2 cut short are filled up with zeros. Positions (GLOBAL_POSITION_INT) come as they
-/// are: whether the vehicle knew where it was is for others to judge.
+/// Payloads that MAVLink 2 truncated are padded with zeros. Positions (GLOBAL_POSITION_INT) are passed on as
+/// they are: PositionGate judges whether the vehicle knew where it was.
 Message decode(const Frame& frame);
 
-/// nullopt for any other message. What the parameters hold is not checked.
+/// nullopt for any other message. The parameters are not checked.
 std::optional<Command> decode_command(const Frame& frame);
 
 }  // namespace geoloc::io

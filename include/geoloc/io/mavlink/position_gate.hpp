@@ -10,7 +10,7 @@ namespace geoloc::io {
 
 /// Whether the vehicle knows where it is. Before that its messages carry latitude and longitude 0, or a
 /// position that may be tens of kilometres off. The receiver and the estimator each have a veto once they
-/// have been heard; a link that carries neither of them passes whatever is not 0, 0.
+/// have been heard. On a link that carries neither, every position except 0, 0 passes.
 class PositionGate {
  public:
   void observe(const GnssStatus& status) { gnss_ = status; }

@@ -10,10 +10,10 @@
 
 namespace geoloc::io {
 
-/// How often something came over the last three seconds, in steps of a quarter of a second.
+/// Rate of an event over the last three seconds, in steps of a quarter of a second.
 class RateMeter {
  public:
-  /// Forgets all; a rate asked for within the window is over the time since.
+  /// Forgets everything. A rate requested within the window covers the time since then.
   void restart(HostTime now) {
     *this = RateMeter{};
     started_ = slot_of(now);
@@ -25,7 +25,7 @@ class RateMeter {
     ++slot.count;
   }
 
-  /// Over whole slots: the one that is filling does not count. 0 before the first is over.
+  /// Rate over complete slots; the current slot does not count. 0 before the first one is complete.
   double rate_hz(HostTime now) const {
     const std::uint64_t end = slot_of(now);
     const std::uint64_t begin = std::max(started_, end - std::min(end, kWindow));

@@ -10,20 +10,20 @@
 
 namespace geoloc::io {
 
-/// Counts the frames that were lost on the way, from the gaps in each sender's sequence numbers. Room for
-/// kSenders: those that come later are not tracked, so a flood of made-up addresses costs nothing.
+/// Counts lost frames from the gaps in each sender's sequence numbers. It tracks the first kSenders senders
+/// only, so a flood of forged addresses costs nothing.
 class SequenceTracker {
  public:
   void observe(MavAddress sender, std::uint8_t sequence);
 
-  /// For frames whose checksum cannot be checked: they fill a gap of a sender that is known, but make none
-  /// known.
+  /// For frames whose checksum cannot be verified: they fill a gap of a known sender, but do not add a
+  /// sender.
   void observe_unchecked(MavAddress sender, std::uint8_t sequence);
 
-  /// Of one sender; 0 where it is not tracked.
+  /// Frames lost from one sender; 0 if it is not tracked.
   std::uint64_t lost(MavAddress sender) const;
 
-  /// Of all senders.
+  /// Frames lost from all senders.
   std::uint64_t lost() const;
 
  private:

@@ -24,10 +24,10 @@ struct StreamRequest {
   Method method = Method::kMessageInterval;
 };
 
-/// Decides what to ask the vehicle for, and when. What counts is what arrives: a message that comes often
-/// enough, whoever asked for it, is not asked for; one that does not is asked for again, at growing
-/// intervals. The answers only set the pace, for they do not say which message they are about: one request is
-/// open at a time.
+/// Decides what to request from the vehicle, and when. Only arrivals count: a message that arrives often
+/// enough, whoever requested it, is not requested, and one that does not is requested again at growing
+/// intervals. The answers only set the pace, because they do not say which message they refer to; therefore
+/// only one request is open at a time.
 class StreamRequests {
  public:
   struct Counts {
@@ -35,10 +35,10 @@ class StreamRequests {
     std::uint64_t denials = 0;
   };
 
-  /// Wants these from now on, and looks for a second at what comes by itself.
+  /// Wants these streams from now on, after observing for one second what arrives unrequested.
   void want(const std::vector<WantedStream>& streams, HostTime now);
 
-  /// The vehicle rebooted or was out of reach: nothing of before counts.
+  /// The vehicle rebooted or was out of reach: everything observed before is void.
   void restart(HostTime now);
 
   void on_message(std::uint32_t message_id, HostTime received_at);

@@ -14,14 +14,15 @@ class TelemetrySink {
  public:
   virtual ~TelemetrySink() = default;
 
-  /// Checked values of the chosen vehicle. Their times may repeat or run back a little, as packets do.
+  /// Checked values of the selected vehicle. Their times may repeat or run back a little, as packets do.
   virtual void on_attitude(const AttitudeSample& sample) = 0;
   virtual void on_position(const PositionSample& sample) = 0;
 
-  /// The vehicle's clock went back: times before and after cannot be compared.
+  /// The vehicle's clock was reset: times before and after it cannot be compared.
   virtual void on_reboot() = 0;
 
-  /// Every frame of the link, whoever sent it, before what it means: what a recording keeps.
+  /// Every frame of the link from any sender, before the call for its content. This is what a recording
+  /// keeps.
   virtual void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) = 0;
 };
 

@@ -26,8 +26,8 @@ struct UdpPeer {
   socklen_t address_size = 0;
 };
 
-/// A bound UDP socket that answers one peer. Anyone who reaches the port can send to it: what comes in is to
-/// be checked.
+/// A bound UDP socket that answers one peer. Anyone who reaches the port can send to it, so input must be
+/// checked.
 class UdpSocket {
  public:
   struct Datagram {
@@ -52,10 +52,10 @@ class UdpSocket {
   /// Waits for one datagram; nullopt after `timeout`, on a signal, or when the network reported an error.
   std::optional<Datagram> receive(std::chrono::milliseconds timeout);
 
-  /// From now on send() goes there.
+  /// Makes `peer` the destination of send().
   void answer(const UdpPeer& peer) { peer_ = peer; }
 
-  /// Does not wait. Failures are counted, never thrown; without a peer nothing is sent.
+  /// Sends without waiting. Failures are counted, never thrown; without a peer nothing is sent.
   void send(const std::uint8_t* data, std::size_t size);
 
   std::uint16_t local_port() const;

@@ -23,13 +23,12 @@
 
 namespace geoloc::io {
 
-/// One vehicle on a MAVLink connection: bytes that arrive go in, its telemetry and clock come out, and what
-/// is to be sent to keep them coming. It does no input or output and reads no clock.
+/// One vehicle on a MAVLink connection: received bytes go in; its telemetry and clock come out, and the
+/// requests to send to keep them coming. It does no input or output and reads no clock.
 ///
 /// The vehicle is the first autopilot (component 1) whose HEARTBEAT is heard, or the configured system;
-/// nothing of others reaches the sink. What consume() delivers depends on the bytes and their times alone,
-/// never on poll(): the recorded frames, given again with their times, give the same samples and the same
-/// clock map.
+/// nothing from others reaches the sink. What consume() delivers depends only on the bytes and their times,
+/// never on poll(): the recorded frames with their times give the same samples and the same clock map.
 class VehicleLink {
  public:
   using Send = std::function<void(const std::uint8_t* frame, std::size_t size)>;
@@ -37,14 +36,14 @@ class VehicleLink {
   /// Throws std::invalid_argument naming every problem.
   explicit VehicleLink(const MavlinkConfig& config);
 
-  /// Bytes as they came, in pieces of any size; `received_at` in whole microseconds, as recordings keep it.
-  /// True where they completed a frame of the vehicle: their sender is the one to answer.
+  /// Takes bytes as received, in pieces of any size; `received_at` is in whole microseconds, as in
+  /// recordings. True if they completed a frame of the vehicle: replies go to their sender.
   bool consume(HostTime received_at, const std::uint8_t* data, std::size_t size, TelemetrySink& sink);
 
   /// To be called often (10 times a second or more): sends what is due. Silent until a vehicle is known.
   void poll(HostTime now, const Send& send);
 
-  /// A line for the people at the ground stations (STATUSTEXT), at most two a second.
+  /// Queues a line for the people at the ground stations (STATUSTEXT), at most two per second.
   void say(const std::string& text);
 
   const VehicleClockMap& clock() const { return clock_; }

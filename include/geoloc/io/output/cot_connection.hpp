@@ -23,9 +23,9 @@ struct CotEndpoint {
 /// shows the text.
 CotEndpoint parse_cot_endpoint(const std::string& text);
 
-/// A way to TAK clients (UDP, to one or to a multicast group) or to a TAK server (TCP). Apart from looking up
-/// a name no call waits for the network. What cannot be reached is tried again, after 1 s, then less and less
-/// often down to every 30 s; so is a server that takes nothing for 10 s.
+/// A connection to TAK clients (UDP, to one or to a multicast group) or to a TAK server (TCP). Apart from
+/// name look-ups, no call waits for the network. A failed connection is retried after 1 s, then at growing
+/// intervals of up to 30 s, as is a server that accepts nothing for 10 s.
 class CotConnection {
  public:
   using Clock = std::chrono::steady_clock;
@@ -42,16 +42,16 @@ class CotConnection {
   CotConnection(const CotConnection&) = delete;
   CotConnection& operator=(const CotConnection&) = delete;
 
-  /// Connects, sends and receives as far as that goes now. To be called often.
+  /// Connects, sends and receives as far as possible without waiting. To be called often.
   void poll(Clock::time_point now);
 
-  /// An event can be taken now.
+  /// Whether an event can be accepted now.
   bool is_ready() const;
 
   /// Only while is_ready().
   void send(const std::string& event);
 
-  /// Waits until everything is sent, or `timeout`. True where it is.
+  /// Waits until everything is sent, or for `timeout`. True if everything was sent.
   bool flush(std::chrono::milliseconds timeout);
 
   const Counts& counts() const { return counts_; }

@@ -14,9 +14,9 @@
 
 namespace geoloc::io {
 
-/// Confirmed objects as Cursor on Target events: at once, again every cot.period_s and at the end of the run;
-/// one that is gone is sent once more, out of date. An object's uid is `prefix.run.id`, where `run` is the
-/// time of the run's first frame: it stays the same in a replay and is never another object's.
+/// Sends confirmed objects as Cursor on Target events: immediately, then every cot.period_s and at the end of
+/// the run. A removed object is sent once more as stale. An object's uid is `prefix.run.id`, where `run` is
+/// the time of the run's first frame: it stays the same in a replay and is never that of another object.
 class CotSink final : public Sink {
  public:
   CotSink(std::string target, const CotConfig& config, const CotConnection::Tell& tell);

@@ -5,8 +5,8 @@
 
 namespace geoloc::io {
 
-/// The value rounded to `digits` places, so that JSON writes it short and stable: as the shortest decimal
-/// that reads back as it. What is not finite stays so, and JSON writes null.
+/// The value rounded to `digits` decimal places, so that JSON writes it short and stable: as the shortest
+/// decimal that reads back as the same value. Values that are not finite stay so, and JSON writes null.
 inline double decimals(double value, int digits) {
   const double scale = std::pow(10.0, digits);
   return std::round(value * scale) / scale;

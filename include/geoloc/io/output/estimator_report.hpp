@@ -12,7 +12,7 @@
 
 namespace geoloc::io {
 
-/// What went in since the start, and what became of it.
+/// The input since the start, and what became of it.
 struct RunCounters {
   std::uint64_t frames = 0;
   std::uint64_t frames_located = 0;

@@ -11,7 +11,7 @@
 
 namespace geoloc::io {
 
-/// A file that holds the whole run so far, and is there whole or not at all.
+/// Writes the whole run so far to a file, which appears complete or not at all.
 class FileSink final : public Sink {
  public:
   using Render = std::function<std::string(const RunRecord&)>;

@@ -13,11 +13,11 @@ class Geoid;
 
 namespace geoloc::io {
 
-/// Mean sea level against the WGS84 ellipsoid, by EGM96 where GeographicLib's data for it are installed
+/// Mean sea level relative to the WGS84 ellipsoid, from EGM96 if GeographicLib's data for it are installed
 /// (`geographiclib-get-geoids egm96-5`).
 class Geoid {
  public:
-  /// `folder`: of the data; empty: GeographicLib's own, and GEOGRAPHICLIB_GEOID_PATH.
+  /// `folder` has the data; if empty, GeographicLib's default folder and GEOGRAPHICLIB_GEOID_PATH apply.
   explicit Geoid(const std::string& folder = {});
   ~Geoid();
   Geoid(const Geoid&) = delete;
@@ -25,7 +25,7 @@ class Geoid {
 
   bool is_installed() const { return geoid_ != nullptr; }
 
-  /// nullopt without data, or where they cannot be read.
+  /// nullopt without data, or if they cannot be read.
   std::optional<double> height_ellipsoid_m(const Geodetic& position, double height_msl_m) const;
 
  private:

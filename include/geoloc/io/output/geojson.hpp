@@ -9,7 +9,8 @@
 
 namespace geoloc::io {
 
-/// The FeatureCollection of docs/formats.md (RFC 7946): a Point an object, and the run's method and counters.
+/// The FeatureCollection of docs/formats.md (RFC 7946): one Point per object, and the run's method and
+/// counters.
 std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const EstimatorReport& estimator);
 
 }  // namespace geoloc::io

@@ -11,13 +11,13 @@
 
 namespace geoloc::io {
 
-/// A run as JSON Lines (docs/formats.md): each line an object with a `type`. Confirmed objects are told when
-/// they are new, and again, at most once a second of the recording's time, after they were seen again.
-/// Figures that are not finite are null.
+/// A run as JSON Lines (docs/formats.md): each line is an object with a `type`. Confirmed objects are written
+/// when they are new, and again after they were seen again, at most once per second of the recording's time.
+/// Numbers that are not finite are null.
 class JsonLines {
  public:
-  /// Lines of a frame, each ended by a newline: `frame`, `object` for each that is new or was seen again,
-  /// `removed` for each that is gone.
+  /// Lines of a frame, each ended by a newline: `frame`, one `object` per object that is new or was seen
+  /// again, and one `removed` per object that is gone.
   std::string frame(const OutputFrame& frame);
 
   /// A `status` line.

@@ -8,8 +8,9 @@
 
 namespace geoloc::io {
 
-/// JSON Lines to standard output ("-"), to a pipe or device, or to a file, which is called FILE.partial until
-/// it is whole. After a write that failed nothing more is written: half a line would spoil the next.
+/// Writes JSON Lines to standard output ("-"), to a pipe or device, or to a file, which is called
+/// FILE.partial until it is complete. After a failed write nothing more is written, because half a line would
+/// spoil the next one.
 class JsonLinesSink final : public Sink {
  public:
   explicit JsonLinesSink(std::string target);

@@ -8,7 +8,7 @@
 
 namespace geoloc::io {
 
-/// How a live run is doing at one moment, in words and figures for people.
+/// State of a live run at one moment, as text and figures for people.
 struct LiveStatus {
   HostTime at;
   Duration elapsed{};  ///< since the program began
@@ -20,7 +20,7 @@ struct LiveStatus {
   bool video_is_good = false;
   std::string video_state;  ///< one word
   double video_rate_hz = 0.0;
-  std::string frame_time;   ///< how frames are timed: "recovered", "arrival"
+  std::string frame_time;   ///< where capture times come from: "recovered", "arrival"
   std::string warning;      ///< what is wrong with the frames, or empty
   double detect_ms = 0.0;   ///< of one frame, mean
   double latency_ms = 0.0;  ///< from capture to result, mean

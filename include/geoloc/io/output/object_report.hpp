@@ -19,12 +19,12 @@ struct ErrorEllipse {
   double azimuth_deg = 0.0;  ///< of the major axis, from true north, clockwise, in [0, 180)
 };
 
-/// Ellipses are drawn so large in pictures and on maps.
+/// Size at which ellipses are drawn in pictures and on maps.
 inline constexpr double kDrawnSigmas = 2.0;
 
 ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance);
 
-/// Over the ground, when last seen.
+/// Speed and course over ground when last seen.
 struct Course {
   double speed_mps = 0.0;
   double direction_deg = 0.0;  ///< from true north, clockwise, in [0, 360)
@@ -32,7 +32,7 @@ struct Course {
 
 Course course_of(const Eigen::Vector2d& velocity_in_enu);
 
-/// What every output says of an object.
+/// What every output reports about an object.
 struct ObjectReport {
   std::uint64_t id = 0;
   int class_id = 0;
@@ -48,12 +48,12 @@ struct ObjectReport {
   std::optional<Course> course;  ///< of objects of moving classes
 };
 
-/// The objects of that status in order of their ids.
+/// The objects with that status in order of their ids.
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
                                          const std::vector<std::string>& class_names,
                                          TrackStatus status = TrackStatus::kConfirmed);
 
-/// A class without a name is called by its number.
+/// The name of a class; a class without one is called by its number.
 std::string class_name_of(int class_id, const std::vector<std::string>& class_names);
 
 /// Whether its position is finite and on the globe; an object without one is in no output.

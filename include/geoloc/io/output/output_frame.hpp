@@ -14,8 +14,7 @@
 #include "geoloc/io/output/estimator_report.hpp"
 #include "geoloc/io/output/object_report.hpp"
 
-// What the estimator knew after a frame, as plain values: whoever gets one may keep it for as long as it
-// likes.
+// What the estimator knew after a frame, as plain values that a receiver may keep for as long as it likes.
 namespace geoloc::io {
 
 /// A point of the ground plane.
@@ -24,7 +23,7 @@ struct GroundPoint {
   Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();  ///< [m]
 };
 
-/// From where a frame was seen.
+/// The viewpoint of a frame.
 struct ViewReport {
   Geodetic vehicle;
   Eigen::Vector3d vehicle_in_enu = Eigen::Vector3d::Zero();  ///< [m], up is the height above home
@@ -32,12 +31,13 @@ struct ViewReport {
   double pitch_deg = 0.0;
   double yaw_deg = 0.0;     ///< from true north
   Rigid3d enu_from_camera;  ///< calibration applied
-  /// Of the image's corners, clockwise from its top left; nullopt where one of them does not meet the ground.
+  /// The image's corners on the ground, clockwise from the top left; nullopt if one of them does not meet the
+  /// ground.
   std::optional<std::array<GroundPoint, 4>> footprint;
   std::optional<GroundPoint> image_centre;
 };
 
-/// One detection of the frame with its place, before any tracking.
+/// One detection of the frame with its position, before any tracking.
 struct FixReport {
   Detection detection;
   GroundPoint ground;
@@ -52,12 +52,12 @@ struct OutputFrame {
   std::vector<ObjectReport> objects;  ///< confirmed, in order of their ids
   std::vector<ObjectReport> tentative;
   EstimatorReport estimator;
-  /// The plane that objects lie on, above mean sea level: home as the autopilot has it. Metres off on real
-  /// vehicles. nullopt before the first position.
+  /// Height above mean sea level of the plane that objects lie on, from the autopilot's home. It is metres
+  /// off on real vehicles. nullopt before the first position.
   std::optional<double> ground_height_msl_m;
 };
 
-/// `is_located`: what Geolocator::process() answered for this frame.
+/// `is_located` is what Geolocator::process() returned for this frame.
 OutputFrame report_frame(const Geolocator& geolocator, bool is_located, HostTime captured_at,
                          const std::vector<Detection>& detections,
                          const std::vector<std::string>& class_names);

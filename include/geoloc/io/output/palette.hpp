@@ -15,8 +15,8 @@ std::string_view palette_css();
 /// "#0067b1" of "object". Throws std::out_of_range for a name that the palette lacks.
 std::string palette_colour(const std::string& name, ColourScheme scheme);
 
-/// `css` with a colour in place of each "var(--NAME)": for pictures, whose readers need not know custom
-/// properties.
+/// `css` with a colour in place of each "var(--NAME)", for pictures, because their viewers may not support
+/// custom properties.
 std::string with_colours(const std::string& css, ColourScheme scheme);
 
 }  // namespace geoloc::io

@@ -20,7 +20,7 @@ struct TrajectoryPoint {
   Eigen::Vector3d position_in_enu = Eigen::Vector3d::Zero();  ///< [m], up is the height above home
 };
 
-/// The whole run so far, as plain values: what files are made of.
+/// The whole run so far, as plain values for writing files.
 struct RunRecord {
   std::string title;
   std::string summary;  ///< lines for a person

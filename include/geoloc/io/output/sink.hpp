@@ -9,9 +9,9 @@
 
 namespace geoloc::io {
 
-/// A place that results go to. A SinkRunner calls it from a thread of its own, one call at a time, so a sink
-/// may block or throw (std::exception) without harm to the estimator or to other sinks. It overrides what it
-/// has a use for.
+/// A destination of results. A SinkRunner calls it from a thread of its own, one call at a time, so a sink
+/// may block or throw (std::exception) without harm to the estimator or to other sinks. It overrides the
+/// functions that it needs.
 class Sink {
  public:
   virtual ~Sink() = default;
@@ -22,13 +22,13 @@ class Sink {
   /// Whether on_frame() and on_status() do anything.
   virtual bool wants_frames() const { return true; }
 
-  /// After each frame, in order; some are left out for a sink that is too slow.
+  /// Called after each frame, in order; frames are dropped for a sink that is too slow.
   virtual void on_frame(const OutputFrame& /*frame*/) {}
 
-  /// Once a second of a live run, whether frames come or not.
+  /// Called once per second in a live run, whether or not frames arrive.
   virtual void on_status(const LiveStatus& /*status*/) {}
 
-  /// Every few seconds of a live run, and once after the last frame of any run.
+  /// Called every few seconds in a live run, and once after the last frame of any run.
   virtual void on_run(const RunRecord& /*run*/) {}
 
   /// The last call.

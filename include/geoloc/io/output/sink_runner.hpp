@@ -13,34 +13,34 @@
 
 namespace geoloc::io {
 
-/// What to do with a frame for which the queue has no room.
+/// What to do with a frame when the queue is full.
 enum class WhenFull {
   kDropOldest,  ///< live: never waits
-  kWait  ///< replay: waits as long as the sink moves; once it has not for `patience`, drops the oldest too
+  kWait  ///< replay: waits while the sink makes progress; after `patience` without any, also drops the oldest
 };
 
 struct SinkRunnerConfig {
   std::size_t queue_length = 256;  ///< frames
   WhenFull when_full = WhenFull::kDropOldest;
-  std::chrono::milliseconds patience{5000};  ///< with a sink that does not move
+  std::chrono::milliseconds patience{5000};  ///< with a sink that makes no progress
 };
 
-/// Runs one sink in a thread of its own behind a bounded queue. What is posted comes out in order; of several
-/// runs that wait, the newest alone.
+/// Runs one sink in a thread of its own behind a bounded queue. Posts are delivered in order; if several runs
+/// are waiting, only the newest is.
 class SinkRunner {
  public:
   struct Stats {
     std::uint64_t dropped = 0;     ///< frames and states
     std::uint64_t failures = 0;    ///< calls that threw
     bool has_lost_frames = false;  ///< a call for a frame, a state or the end threw
-    bool has_lost_run = false;     ///< that for the last run did
+    bool has_lost_run = false;     ///< the call for the last run threw
     std::string error;             ///< what it said
-    bool is_stuck = false;         ///< finish() left it behind in a call that did not return
+    bool is_stuck = false;         ///< finish() abandoned it in a call that did not return
 
     bool has_failed() const { return has_lost_frames || has_lost_run || is_stuck; }
   };
 
-  /// For a user; called from any thread.
+  /// Shows a message to the user; called from any thread.
   using Tell = std::function<void(const std::string& message)>;
 
   SinkRunner(std::unique_ptr<Sink> sink, const SinkRunnerConfig& config, Tell tell);
@@ -56,8 +56,8 @@ class SinkRunner {
   /// Nothing more will come; does not wait.
   void close();
 
-  /// Closes and waits while the sink moves. A sink that has not moved for `patience` is left behind with its
-  /// thread, and takes nothing of the program with it.
+  /// Closes and waits while the sink makes progress. A sink without progress for `patience` is abandoned with
+  /// its thread, and shares nothing with the rest of the program.
   void finish();
 
   Stats stats() const;

@@ -18,7 +18,7 @@ namespace geoloc::io {
 struct RecordedFrame {
   HostTime captured_at;  ///< best estimate of the capture time, on the clock of the tlog's stamps
   std::vector<Detection> detections;
-  /// How many records of telemetry.tlog had been taken in when the frame was processed. With it a replay
+  /// Number of records of telemetry.tlog that had been read when the frame was processed. With it a replay
   /// repeats the live run exactly; without it (recordings of other tools) the replay reads ahead until the
   /// state is known.
   std::optional<std::uint64_t> telemetry_records;

@@ -15,7 +15,7 @@ namespace geoloc::io {
 
 enum class BadLines {
   kRefuse,  ///< throw at the first
-  kSkip     ///< leave out and count
+  kSkip     ///< skip and count
 };
 
 struct Recording {
@@ -29,7 +29,7 @@ struct Recording {
 };
 
 /// Reads the whole folder. Throws std::runtime_error with file, line and reason for a missing file, a bad
-/// line, a number that is not finite, a box of no size, or frame times that run backwards.
+/// line, a number that is not finite, a box without size, or frame times that run backwards.
 Recording read_recording(const std::filesystem::path& folder, BadLines bad_lines = BadLines::kRefuse);
 
 /// frames.jsonl alone; `name` stands for the file in messages.

@@ -13,9 +13,9 @@
 
 namespace geoloc::io {
 
-/// Writes a recording. All goes into `<folder>.partial`, which finish() renames to `<folder>`: a recording
-/// under its own name is whole, and one that a power cut ended is still there to be replayed. Every call
-/// throws std::runtime_error, naming the file and the system's reason, when the disk does not take the data.
+/// Writes a recording into `<folder>.partial`, which finish() renames to `<folder>`: a recording under its
+/// own name is complete, and one that was cut off by a power failure can still be replayed. Every call throws
+/// std::runtime_error, naming the file and the system's reason, when the disk does not take the data.
 class RecordingWriter {
  public:
   /// Throws also when `folder` exists already and is not empty.
@@ -35,7 +35,7 @@ class RecordingWriter {
   /// Records of telemetry written so far (RecordedFrame::telemetry_records).
   std::uint64_t telemetry_records() const { return telemetry_records_; }
 
-  /// Closes the files and gives the folder its name. Nothing can be added afterwards.
+  /// Closes the files and gives the folder its final name. Nothing can be added afterwards.
   void finish();
 
  private:

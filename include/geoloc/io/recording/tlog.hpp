@@ -10,8 +10,8 @@
 
 namespace geoloc::io {
 
-/// One record of a MAVLink log; the bytes live in the Tlog it came from. They are framed, not checked: a
-/// frame with a bad checksum is for the MAVLink decoder to refuse.
+/// One record of a MAVLink log; the bytes live in the Tlog it came from. They are framed but not checked: the
+/// MAVLink decoder rejects frames with bad checksums.
 struct TlogRecord {
   HostTime received_at;
   const std::uint8_t* frame;
@@ -23,12 +23,13 @@ class Tlog {
  public:
   Tlog() = default;
 
-  /// Frames the bytes. Where a record is damaged it goes on at the next place that starts a believable one.
+  /// Splits the bytes into records. After a damaged record it continues at the next position that starts a
+  /// plausible one.
   explicit Tlog(std::vector<std::uint8_t> bytes);
 
   const std::vector<TlogRecord>& records() const { return records_; }
 
-  /// Bytes that belong to no record: damage, or the cut end of a file.
+  /// Bytes that belong to no record: damage, or the truncated end of a file.
   std::size_t skipped_bytes() const { return skipped_bytes_; }
 
   Tlog(Tlog&&) = default;

@@ -12,7 +12,7 @@
 namespace geoloc::io {
 
 enum class Pace {
-  kRealTime,  ///< like a camera: a caller that is too slow misses frames
+  kRealTime,  ///< like a camera: a slow caller misses frames
   kAsTaken    ///< every frame, as fast as they are taken
 };
 
@@ -26,8 +26,8 @@ struct Playback {
 /// the file could be played.
 class FileSource final : public VideoSource {
  public:
-  /// Throws std::runtime_error naming the file and the reason where it holds no video that can be decoded.
-  /// Of `config`, the size limit is used. `clock` must outlive the source.
+  /// Throws std::runtime_error naming the file and the reason if it holds no decodable video. Only the size
+  /// limit of `config` is used. `clock` must outlive the source.
   FileSource(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
              const HostClock& clock);
   ~FileSource() override;

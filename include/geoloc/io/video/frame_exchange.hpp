@@ -11,20 +11,20 @@
 
 namespace geoloc::io {
 
-/// Where a decoding thread leaves frames and a consumer takes them: room for one frame, and the counters of
-/// the source. Every call is safe from any thread.
+/// Passes frames from a decoding thread to a consumer: it holds one frame, and the counters of the source.
+/// Thread-safe.
 class FrameExchange {
  public:
   /// Replaces a frame that nobody took; it counts as dropped. Ignored after end().
   void offer(VideoFrame frame);
 
-  /// Waits until the frame before it was taken, so that none is dropped. False after end().
+  /// Waits until the previous frame was taken, so that none is dropped. False after end().
   bool offer_and_wait(VideoFrame frame);
 
   /// See VideoSource::next().
   std::optional<VideoFrame> take(Duration timeout);
 
-  /// No frame will come any more; what was offered can still be taken. Frees whoever waits.
+  /// No more frames will come; an offered frame can still be taken. Wakes all waiting threads.
   void end();
 
   void set_state(VideoState state);

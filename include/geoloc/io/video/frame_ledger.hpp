@@ -16,17 +16,17 @@ struct RtpPacket {
   bool begins_random_access_picture = false;
 };
 
-/// What was learnt of a frame while its packets passed.
+/// What was learnt about a frame from its packets.
 struct FrameEntry {
   std::uint32_t timestamp = 0;
   HostTime received_at;  ///< of its first packet
   bool damaged = false;
 };
 
-/// Follows the packets of a stream and remembers the last frames by their RTP timestamp, for the moment when
-/// they come out of the decoder. A gap in the sequence numbers damages the frame before it (its end may be
-/// missing), the frame after it, and all that follow up to a random access picture: one lost packet in a
-/// thousand spoils most frames of a stream, and no decoder says so.
+/// Follows the packets of a stream and remembers the last frames by their RTP timestamp until they come out
+/// of the decoder. A gap in the sequence numbers damages the frame before it (its end may be missing), the
+/// frame after it, and all that follow up to a random access picture: one lost packet in a thousand spoils
+/// most frames of a stream, and no decoder says so.
 class FrameLedger {
  public:
   void observe(const RtpPacket& packet, HostTime received_at);
@@ -36,8 +36,8 @@ class FrameLedger {
 
   std::uint64_t lost_packets() const { return lost_packets_; }
 
-  /// Streams refreshed slice by slice have no random access pictures: without loss for this long, all is well
-  /// again.
+  /// Streams refreshed slice by slice have no random access pictures: after this long without loss, frames
+  /// count as undamaged again.
   static constexpr Duration kHealsWithin = std::chrono::seconds{10};
 
  private:

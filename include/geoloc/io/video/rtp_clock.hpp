@@ -23,12 +23,12 @@ struct SenderReport {
 /// The 64-bit NTP time stamp of a sender report as time since the UNIX epoch.
 SenderTime from_ntp(std::uint64_t ntp_time);
 
-/// RTP timestamps to capture times. A report is trusted when a second one confirms it: the first report of a
-/// starting server may be tens of milliseconds off. A trusted mapping stays until two newer reports agree on
-/// another.
+/// Maps RTP timestamps to capture times. A report is trusted when a second one confirms it, because the first
+/// report of a starting server may be tens of milliseconds off. A trusted mapping stays until two newer
+/// reports agree on another.
 ///
-/// What it cannot see: a sender that is late by less than kLargestDelay, be its clock slow or its reports
-/// shifted by the latency of its own encoder. That is a constant, for the estimator to find.
+/// It cannot detect a sender that is late by less than kLargestDelay because its clock is slow or its reports
+/// are shifted by the latency of its own encoder. That is a constant, which the estimator finds.
 class RtpClock {
  public:
   struct Capture {
@@ -36,7 +36,7 @@ class RtpClock {
     TimeQuality quality = TimeQuality::kArrival;
   };
 
-  /// `latency`: from exposure to arrival, where the stream itself does not tell.
+  /// `latency` is from exposure to arrival, for streams that do not tell the capture time.
   explicit RtpClock(Duration latency) : latency_(latency) {}
 
   void observe(const SenderReport& report);

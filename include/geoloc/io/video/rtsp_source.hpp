@@ -11,8 +11,8 @@
 
 namespace geoloc::io {
 
-/// A live camera over RTSP: H.264, and H.265 where a decoder is installed. Connects in a thread of its own
-/// and goes on trying for as long as it lives, whatever the server does.
+/// A live camera over RTSP: H.264, and H.265 where a decoder is installed. It connects in a thread of its own
+/// and retries for as long as it lives, whatever the server does.
 class RtspSource final : public VideoSource {
  public:
   /// Throws std::invalid_argument for a bad address or configuration, std::runtime_error naming the missing

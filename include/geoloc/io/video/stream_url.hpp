@@ -6,11 +6,11 @@
 
 namespace geoloc::io {
 
-/// Whether it is an RTSP address: rtsp:// (or rtspt, rtspu, rtsps), a host, no blanks or control characters.
+/// Whether it is an RTSP address: rtsp:// (or rtspt, rtspu, rtsps), a host, no spaces or control characters.
 bool is_rtsp_url(std::string_view url);
 
-/// The address as it may be shown and logged: scheme, host, port and path. User, password, and whatever looks
-/// like a parameter are replaced by "…"; some cameras take the password in the path
+/// The address in a form that can be shown and logged: scheme, host, port and path. User, password, and
+/// whatever looks like a parameter are replaced by "…"; some cameras take the password in the path
 /// ("/user=admin_password=…").
 std::string without_credentials(std::string_view url);
 

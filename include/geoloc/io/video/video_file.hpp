@@ -16,17 +16,17 @@ class VideoFile {
   /// Pictures have the size of the first one. Throws std::runtime_error naming the file and the reason.
   VideoFile(std::filesystem::path file, cv::Size size);
 
-  /// What was not finished is not left behind.
+  /// Removes the file if it was not finished.
   ~VideoFile();
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
 
-  /// `bgr`: 8 bits, 3 channels; another size is scaled to the first one's. `time`: from the beginning, later
-  /// than that of the picture before. Waits while the encoder is behind. Throws std::runtime_error as the
-  /// constructor.
+  /// `bgr` has 8 bits and 3 channels; other sizes are scaled to that of the first picture. `time` is from the
+  /// beginning, later than that of the previous picture. Waits while the encoder is behind. Throws
+  /// std::runtime_error as the constructor.
   void add(const cv::Mat& bgr, Duration time);
 
-  /// Waits for the encoder, and gives the file its name. Nothing can be added afterwards.
+  /// Waits for the encoder and gives the file its final name. Nothing can be added afterwards.
   void finish();
 
  private:

@@ -7,12 +7,12 @@
 
 namespace geoloc::io {
 
-/// How a frame's capture time was found.
+/// How a frame's capture time was obtained.
 enum class TimeQuality {
-  kArrival,       ///< when the frame arrived, less the configured latency
+  kArrival,       ///< when the frame arrived, minus the configured latency
   kForeignClock,  ///< from the sender's clock, which is not UTC: spacing exact, offset as good as kArrival's
                   ///< best
-  kUnconfirmed,   ///< from the sender's first report, which none has confirmed yet
+  kUnconfirmed,   ///< from the sender's first report, not confirmed yet
   kRecovered,     ///< from reports that agree: the sender's own UTC time of capture
   kFile           ///< from the time stamps of a file
 };
@@ -20,11 +20,11 @@ enum class TimeQuality {
 const char* to_string(TimeQuality quality);
 
 struct VideoFrame {
-  cv::Mat bgr;           ///< 8 bits, 3 channels, not empty; shared with nobody
+  cv::Mat bgr;           ///< 8 bits, 3 channels, not empty; not shared
   HostTime captured_at;  ///< whole microseconds
   HostTime received_at;  ///< when the frame's first packet arrived (a file: when it was decoded)
   TimeQuality time_quality = TimeQuality::kArrival;
-  bool damaged = false;  ///< data it is made of was lost, here or in a picture it refers to
+  bool damaged = false;  ///< some of its data was lost, or of a picture it refers to
 };
 
 }  // namespace geoloc::io

@@ -14,7 +14,7 @@ enum class VideoState {
   kConnecting,  ///< no frame yet
   kPlaying,     ///< frames arrive
   kRetrying,    ///< the connection failed; another attempt follows
-  kEnded        ///< no frame will come any more
+  kEnded        ///< no more frames will come
 };
 
 const char* to_string(VideoState state);
@@ -25,14 +25,14 @@ struct VideoStatus {
   double frames_per_second = 0.0;  ///< decoded, mean over the last two seconds
   TimeQuality time_quality = TimeQuality::kArrival;  ///< of the newest frame
   std::uint64_t frames = 0;                          ///< decoded
-  std::uint64_t dropped = 0;                         ///< replaced by a newer one before anybody took them
+  std::uint64_t dropped = 0;                         ///< replaced by a newer one before they were taken
   std::uint64_t damaged = 0;                         ///< see VideoFrame::damaged
   std::uint64_t refused = 0;  ///< not usable as pictures: empty, absurdly large, without time
   std::uint64_t lost_packets = 0;
   std::uint64_t attempts = 0;  ///< connections tried, the first one included
 };
 
-/// A camera's frames. One thread calls next(); any may call status().
+/// A source of camera frames. One thread calls next(); any thread may call status().
 class VideoSource {
  public:
   virtual ~VideoSource() = default;

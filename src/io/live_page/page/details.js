@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The object that was clicked: its place in four notations, and how it came to be known.
+// The selected object: its position in four notations, and the history of its estimate.
 import { clock, element, number, sigmaText } from "./panels.js";
 
 const SVG = "http://www.w3.org/2000/svg";
@@ -13,7 +13,7 @@ function svg(tag, attributes, text) {
   return made;
 }
 
-/** The clipboard's interface is for secure pages only, which one reached over a network by http is not. */
+/** The clipboard API works on secure pages only, and a page reached over a network by http is not secure. */
 async function copy(text, button) {
   try {
     await navigator.clipboard.writeText(text);
@@ -93,7 +93,7 @@ export class Details {
     this.shown = "";
   }
 
-  /** `object`: as the list has it. Asks the server for the rest where it has changed. */
+  /** `object` is the list's entry. Asks the server for the rest if it has changed. */
   async show(object) {
     const version = `${object.id} ${object.hits} ${object.at} ${object.major_m}`;
     if (version === this.shown) return;

@@ -87,7 +87,7 @@ export function drawFootprint(pen, corners) {
   context.strokeStyle = colours.footprint;
   context.stroke();
   context.globalAlpha = 1;
-  // The image's top edge, heavier: how the picture lies on the ground.
+  // The image's top edge is drawn heavier, to show its orientation on the ground.
   context.lineWidth = 3;
   strokeLine(context, viewport.toScreen(corners[0]), viewport.toScreen(corners[1]));
 }
@@ -117,7 +117,7 @@ export function drawTargets(pen, targets) {
   }
 }
 
-/** By how much confirmed objects' ellipses must be enlarged to be seen: one factor for all, so that they compare. */
+/** Factor by which confirmed objects' ellipses must be enlarged to be visible: one for all, so that they can be compared. */
 export function exaggeration(objects, scale) {
   const axes = objects.map((object) => object.major_m).filter((axis) => axis > 0).sort((a, b) => a - b);
   if (axes.length === 0) return 1;
@@ -171,7 +171,7 @@ export function drawObject(pen, object, isSelected) {
   context.stroke();
 }
 
-/** Ids beside the objects, where they have room. */
+/** Ids beside the objects, where there is room. */
 export function drawLabels(pen, objects) {
   const { context, viewport, colours } = pen;
   context.font = `600 11px ${pen.font}`;
@@ -232,7 +232,7 @@ export function drawScaleBar(pen) {
   context.fillText(label, x + 5, y - 3);
 }
 
-/** One of a layer's marks in the middle of a viewport of 22 x 16 m at 1 px/m. */
+/** One of a layer's marks, in the middle of a viewport of 22 x 16 m at 1 px/m. */
 export function drawSymbol(pen, key) {
   const object = { at: [0, 0], confirmed: key !== "tentative", major_m: 4.5, minor_m: 2.8, azimuth_deg: 70 };
   const draw = {

@@ -10,7 +10,7 @@ const COLOURS = ["map", "grid", "grid-strong", "ink", "soft", "object", "tentati
   "target", "vehicle"];
 
 export class GroundMap extends EventTarget {
-  /** `visible(key)`: whether a layer is to be drawn. `background(pen)`: draws what lies below everything. */
+  /** `visible(key)`: whether a layer is drawn. `background(pen)`: draws what is below all layers. */
   constructor(canvas, model, visible, background) {
     super();
     this.canvas = canvas;

@@ -2,8 +2,8 @@
 // The run as this page knows it, kept up to date by the server's events.
 
 const MOST_FIXES = 3000;
-const SILENCE_MS = 4000; // the server says something every second
-const HIDDEN_MS = 10000; // a page nobody looks at gives its place to others
+const SILENCE_MS = 4000; // the server sends something every second
+const HIDDEN_MS = 10000; // a hidden page gives its place to others
 const RETRY_MS = 3000;
 
 export class Model extends EventTarget {
@@ -28,7 +28,7 @@ export class Model extends EventTarget {
     this.fixes = [];
   }
 
-  /** Takes in what the server says has changed. */
+  /** Applies the changes that the server sends. */
   apply(change) {
     if (change.run) {
       this.reset();
@@ -53,7 +53,7 @@ export class Model extends EventTarget {
   }
 }
 
-/** Connects a model to the server, for as long as the page is looked at. */
+/** Connects a model to the server while the page is visible. */
 export function connect(model) {
   let source = null;
   let hiddenTimer = 0;

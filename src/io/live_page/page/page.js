@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joins the parts of the page.
+// Connects the parts of the page.
 import { Details } from "./details.js";
 import { LAYERS } from "./layers.js";
 import { GroundMap } from "./map.js";
@@ -9,7 +9,7 @@ import { TileLayer } from "./tiles.js";
 import { VideoView } from "./video.js";
 
 const get = (id) => document.getElementById(id);
-const LISTS_MS = 400; // lists are rebuilt no more often: people read them
+const LISTS_MS = 400; // lists are rebuilt at most this often, so that people can read them
 
 const model = new Model();
 const shown = Object.fromEntries(LAYERS.map((layer) => [layer.key, layer.on]));

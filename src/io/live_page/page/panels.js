@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists beside the map. Names come from models and streams and may hold anything: they are only ever set as text.
+// The lists beside the map. Names come from models and streams and may contain anything, so they are only ever set as
+// text.
 
 const MOST_ROWS = 300;
 
@@ -9,7 +10,7 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
-/** "7.1", "−0.021", "–" for what is not known. */
+/** "7.1", "−0.021", "–" for unknown. */
 export function number(value, digits) {
   return Number.isFinite(value) ? value.toFixed(digits).replace("-", "−") : "–";
 }
@@ -47,7 +48,7 @@ function shortLink(status) {
   return `Telemetry ${number(status.attitude_hz, 0)} Hz`;
 }
 
-/** What keeps the run from locating objects, in the program's own words; empty while all is well. */
+/** What keeps the run from locating objects, as the program states it; empty if nothing does. */
 export function trouble(model) {
   if (model.connection === "lost") return "geoloc does not answer. This is the last that was known.";
   const { status, ended } = model;

@@ -5,14 +5,14 @@ const EQUATORIAL_RADIUS_M = 6378137.0;
 const ECCENTRICITY_SQUARED = 0.00669437999014;
 const RAD = Math.PI / 180;
 
-/** Degrees of a place, [latitude, longitude], by the ellipsoid's curvature at the anchor: centimetres within a kilometre. */
+/** Degrees [latitude, longitude] of a point, by the ellipsoid's curvature at the anchor: centimetres within a kilometre. */
 export function toDegrees(anchor, [east, north]) {
   const { perLatitude, perLongitude } = metresPerDegree(anchor.latitude_deg);
   return [anchor.latitude_deg + (north - anchor.at[1]) / perLatitude,
     anchor.longitude_deg + (east - anchor.at[0]) / perLongitude];
 }
 
-/** The other way round: [east, north]. */
+/** The inverse: [east, north]. */
 export function toMetres(anchor, [latitude, longitude]) {
   const { perLatitude, perLongitude } = metresPerDegree(anchor.latitude_deg);
   return [anchor.at[0] + (longitude - anchor.longitude_deg) * perLongitude,
@@ -34,7 +34,7 @@ export function roundStep(least) {
   return decade * [1, 2, 5, 10].find((factor) => factor * decade >= least * 0.999999);
 }
 
-/** What part of the ground a map of a size shows: a centre [m] and a scale [px/m]. */
+/** The part of the ground that a map of a given size shows: a centre [m] and a scale [px/m]. */
 export class Viewport {
   constructor() {
     this.width = 1;
@@ -64,7 +64,7 @@ export class Viewport {
     this.centre = [this.centre[0] + before[0] - after[0], this.centre[1] + before[1] - after[1]];
   }
 
-  /** All points in view, with a margin, and clear of what lies over the right edge. */
+  /** Brings all points into view, with a margin, and clear of the buttons over the right edge. */
   fit(points, toolsWidth) {
     let [west, south, east, north] = [Infinity, Infinity, -Infinity, -Infinity];
     for (const [x, y] of points) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A background of map tiles (Web Mercator, 256 px), where a URL was configured.
+// A background of map tiles (Web Mercator, 256 px), if a URL is configured.
 import { toDegrees, toMetres } from "./projection.js";
 
 const MOST_TILES = 256; // kept

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The video's newest picture with the detector's boxes, fetched when the server says that there is one.
+// The video's newest picture with the detector's boxes, fetched when the server announces one.
 
-const LABEL_PX = 12; // as they are seen, whatever the size of the picture
+const LABEL_PX = 12; // on the screen, whatever the size of the picture
 const BOX_PX = 1.8;
 
 /** 4 bytes of the JSON's length, little endian, the JSON, the JPEG. */
@@ -12,7 +12,7 @@ async function unpack(buffer) {
   return { about, image: await createImageBitmap(jpeg) };
 }
 
-/** `pixel`: how many of the canvas's pixels one on the screen is; `scale`: of the frame's, one of the canvas. */
+/** `pixel`: canvas pixels per screen pixel; `scale`: canvas pixels per frame pixel. */
 function drawBox(context, { box, name, confidence }, scale, pixel, colour) {
   const [x, y, width, height] = box.map((value) => value * scale);
   for (const [style, line] of [["#000a", 2 * BOX_PX], [colour, BOX_PX]]) {
@@ -38,7 +38,7 @@ export class VideoView {
     this.isFetching = false;
   }
 
-  /** `newest`: the number of the newest picture; asked for even before the first, so that one is made. */
+  /** `newest` is the number of the newest picture. Pictures are requested even before the first, so that one is made. */
   async update(newest, isLive) {
     if (!isLive || this.isFetching || (newest !== 0 && newest === this.shown)) return;
     this.isFetching = true;
@@ -46,7 +46,7 @@ export class VideoView {
       const answer = await fetch("frame", { cache: "no-store" });
       if (answer.status === 200) this.draw(await unpack(await answer.arrayBuffer()));
     } catch {
-      // The server is gone or the picture is damaged: the next one may come.
+      // The server is gone or the picture is damaged; the next one may work.
     } finally {
       this.isFetching = false;
     }

@@ -3,34 +3,19 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
+#include <optional>
 #include <vector>
 
+#include "calibration/shared_error.hpp"
 #include "geoloc/tracking/assignment.hpp"
 
 namespace geoloc {
 
-/// What all looks of a frame are off by together, as one vector: calibration (without the offset, which
-/// cancels between a look and a track that looks made), drift of the vehicle's state, noise of the frame.
-/// All Jacobians by it are whitened: by its components in units in which their prior covariance is one.
-struct SharedError {
-  static constexpr int kCalibrationSize = 5;
-  static constexpr int kCalibration = 0;  ///< boresight, latency, height
-  static constexpr int kDrift = 5;        ///< east, north, yaw
-  static constexpr int kFrame = 8;        ///< east, north
-  static constexpr int kTime = 10;        ///< of the frame's stamp
-  static constexpr int kSize = 11;
-
-  using Vector = Eigen::Matrix<double, kSize, 1>;
-  using Matrix = Eigen::Matrix<double, kSize, kSize>;
-  using Row = Eigen::Matrix<double, 2, kSize>;
-  using CalibrationMatrix = Eigen::Matrix<double, kCalibrationSize, kCalibrationSize>;
-  using CalibrationRow = Eigen::Matrix<double, 2, kCalibrationSize>;
-};
-
 /// A look that may show a track: residual = jacobian * shared error + noise of its own.
 struct Pairing {
-  int look = 0;
-  int track = 0;
+  std::size_t look = 0;
+  std::size_t track = 0;
   Eigen::Vector2d residual;        ///< look minus track [m]
   SharedError::Row jacobian;       ///< of the residual, whitened [m]
   Eigen::Matrix2d own_covariance;  ///< detector's noise and what is not known of the track by itself [m^2]
@@ -43,14 +28,15 @@ struct Pairing {
 /// compatibility, Neira and Tardos 2001; here with optimal assignments in place of a tree search.)
 class JointAssociation {
  public:
-  static constexpr int kNone = -1;
-
   struct Match {
-    int track = kNone;
+    std::optional<std::size_t> track;  ///< nullopt: the look shows none of them
     /// Another explanation of the frame, about as good, says otherwise: best learn nothing from this look.
     bool is_ambiguous = false;
     Eigen::Vector2d innovation;
     Eigen::Matrix2d innovation_covariance;
+
+    /// Whether the look shows a track, and no other may be meant.
+    bool is_certain() const { return track && !is_ambiguous; }
   };
 
   JointAssociation(int max_looks, int max_tracks);
@@ -72,10 +58,7 @@ class JointAssociation {
   const std::vector<Pairing>& pairings() const { return pairings_; }
 
   /// How many looks of the frame may show a track that has a pairing.
-  int looks_at(int track) const {
-    const int column = column_of_track_[static_cast<std::size_t>(track)];
-    return pairings_of_column_[static_cast<std::size_t>(column)];
-  }
+  int looks_at(std::size_t track) const { return pairings_of_column_[column_of_track_[track]]; }
 
   /// That pair, by itself: nothing is known of the shared error yet.
   static Match match_of(const Pairing& pairing);
@@ -92,29 +75,33 @@ class JointAssociation {
 
   /// One explanation of the frame.
   struct Hypothesis {
-    std::vector<int> pairing_of_look;
+    std::vector<std::size_t> pairing_of_look;  // kNone: left alone
     double cost = 0.0;
     Estimate estimate;
   };
 
+  enum class Starts { kAmbiguousLooks, kEveryPairing };
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
   bool is_doubtful(std::size_t look) const;
   bool is_plain() const;
-  void explain(const Pairing* start, int look_left_alone);
-  void assign(const Estimate& estimate, int look_left_alone, std::vector<int>& pairing_of_look);
-  void try_other_explanations(bool from_every_pairing);
+  void explain(const Pairing* start, std::size_t look_left_alone);
+  void assign(const Estimate& estimate, std::size_t look_left_alone,
+              std::vector<std::size_t>& pairing_of_look);
+  void try_other_explanations(Starts starts);
   void report_best();
-  int track_of(const Hypothesis& hypothesis, std::size_t look) const;
+  std::optional<std::size_t> track_of(const Hypothesis& hypothesis, std::size_t look) const;
 
   double gate_ = 0.0;
   double ambiguity_ = 0.0;
   std::vector<Pairing> pairings_;
   std::vector<int> pairings_of_look_;  // how many
   std::vector<double> least_cost_of_look_;
-  std::vector<int> column_of_track_;  // kNone where it is in no pair
-  std::vector<int> track_of_column_;
+  std::vector<std::size_t> column_of_track_;  // kNone where it is in no pair
+  std::vector<std::size_t> track_of_column_;
   std::vector<int> pairings_of_column_;
-  Eigen::MatrixXd costs_;       // looks x tracks that are in a pair
-  Eigen::MatrixXi pairing_at_;  // the same shape
+  Eigen::MatrixXd costs_;  // looks x tracks that are in a pair
+  Eigen::Matrix<std::size_t, Eigen::Dynamic, Eigen::Dynamic> pairing_at_;  // the same shape
   AssignmentSolver assignment_;
   std::vector<Hypothesis> hypotheses_;  // the first `hypothesis_count_` are in use
   std::size_t hypothesis_count_ = 0;

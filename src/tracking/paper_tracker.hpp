@@ -2,48 +2,37 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/projection/frame_view.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/assignment.hpp"
+#include "geoloc/tracking/paper_tracker_config.hpp"
 #include "geoloc/tracking/track.hpp"
+#include "tracking/tracker.hpp"
 
 namespace geoloc {
-
-struct PaperTrackerConfig {
-  double measurement_sigma_m = 1.2;  ///< 1-sigma of one fix an axis, calibration errors included (R)
-  double process_sigma_m = 0.01;     ///< 1-sigma an axis added at every update: keeps the filter awake (Q)
-  double gate = 3.0;                 ///< largest Mahalanobis distance (eq. 11) at which a pair is accepted
-  int confirm_hits = 5;              ///< detections that make a tentative track a confirmed one
-  int max_penalty = 15;              ///< a track that reaches it is removed
-  double visible_margin_px =
-      40.0;  ///< nearer to the image's edge a missing detection is not held against a track
-  double merge_distance_m = 0.8;  ///< confirmed tracks that come closer are one object: an object's size
-  int max_tracks = 2000;          ///< beyond this, new objects are refused and counted
-
-  std::vector<std::string> problems() const;
-};
 
 /// Spatial refinement as published (paper, section 4): optimal assignment on Mahalanobis distances, one
 /// Kalman filter an object, penalties for objects that should be visible and are not, merging of confirmed
 /// neighbours. Where a detection states a sigma, what that makes on the ground is added to R.
-class PaperTracker {
+class PaperTracker final : public Tracker {
  public:
   /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
   /// given.
   PaperTracker(const PaperTrackerConfig& config, int max_detections);
 
-  /// One frame: its detections in a canonical order (see Geolocator), and from where it was seen.
-  void update(const std::vector<LocatedDetection>& detections, const Projector& projector,
-              const FrameView& view);
+  void update(const LocatedFrame& frame) override;
 
-  /// Tentative and confirmed, in order of their ids.
-  const std::vector<Track>& tracks() const { return tracks_; }
-  const TrackCounters& counters() const { return counters_; }
+  const std::vector<Track>& tracks() const override { return tracks_; }
+  const TrackCounters& counters() const override { return counters_; }
+  const Calibration& calibration() const override { return no_calibration_; }
+  std::optional<Calibration> calibration_of_camera() const override { return std::nullopt; }
+  const std::vector<KnownPointReport>& known_points() const override { return no_known_points_; }
 
  private:
   void associate(const std::vector<LocatedDetection>& detections);
@@ -61,10 +50,12 @@ class PaperTracker {
   AssignmentSolver solver_;
   Eigen::MatrixXd costs_;                // detections x candidate tracks
   std::vector<std::size_t> candidates_;  // tracks within the gate of some detection
-  std::vector<int> track_of_detection_;  // index into tracks_, or kUnassigned
+  std::vector<std::optional<std::size_t>> track_of_detection_;
   std::vector<char> track_is_matched_;
   std::uint64_t next_id_ = 1;
   TrackCounters counters_;
+  const Calibration no_calibration_;
+  const std::vector<KnownPointReport> no_known_points_;
 };
 
 }  // namespace geoloc

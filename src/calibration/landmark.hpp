@@ -5,8 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "calibration/drift.hpp"
 #include "geoloc/calibration/calibration.hpp"
-#include "geoloc/calibration/drift.hpp"
 
 namespace geoloc {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "geoloc/calibration/landmark.hpp"
+#include "calibration/landmark.hpp"
 #include "geoloc/projection/frame_view.hpp"
 
 namespace geoloc {

@@ -4,25 +4,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "geoloc/calibration/drift_config.hpp"
 #include "geoloc/geometry/time.hpp"
 
 namespace geoloc {
-
-/// Errors of the vehicle's state that wander: position as the receiver's solution does, yaw as the compass'
-/// does. They are described at nodes a few seconds apart, straight lines between, with a first-order
-/// Gauss-Markov prior from node to node.
-struct DriftConfig {
-  double node_spacing_s = 5.0;
-  double position_time_constant_s = 30.0;
-  double yaw_time_constant_s = 60.0;
-  double sigma_yaw_deg = 0.7;  ///< of the wandering, 1-sigma
-  int max_nodes = 36;          ///< older ones are frozen at their estimates
-
-  std::vector<std::string> problems() const;
-};
 
 /// A node's state: east, north [m], yaw [rad, clockwise]; corrections to what the vehicle reports.
 inline constexpr int kNodeSize = 3;
@@ -57,10 +44,15 @@ class DriftTimeline {
   std::uint32_t begin() const { return begin_; }
   std::uint32_t end() const { return end_; }
   int size() const { return static_cast<int>(end_ - begin_); }
-  bool is_full() const { return size() >= config_.max_nodes; }
 
   const DriftNode& node(std::uint32_t number) const { return nodes_[place(number)]; }
   DriftNode& node(std::uint32_t number) { return nodes_[place(number)]; }
+
+  /// The estimate at a time between two nodes.
+  NodeVector at(const NodeSpan& span) const {
+    return (1.0 - span.weight_of_second) * node(span.first).mean +
+           span.weight_of_second * node(span.first + 1).mean;
+  }
 
   /// Information of a node's prior, with the wandering of the position scaled as set.
   NodeVector information(std::uint32_t number) const {

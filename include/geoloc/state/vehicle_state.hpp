@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geoloc/geometry/rigid3.hpp"
+#include "geoloc/geometry/time.hpp"
+
+namespace geoloc {
+
+enum class AttitudeInterpolation {
+  kCircular,  ///< roll, pitch and yaw each by itself (paper, eq. 5)
+  kSlerp      ///< the shortest rotation
+};
+
+struct StateConfig {
+  AttitudeInterpolation attitude_interpolation = AttitudeInterpolation::kSlerp;
+  double max_gap_s = 0.6;              ///< a longer hole in the telemetry gives no state
+  double max_extrapolation_s = 0.005;  ///< beyond the newest sample; more is guessing
+
+  std::vector<std::string> problems() const;
+};
+
+/// Where the vehicle was at one instant.
+struct VehicleState {
+  VehicleTime time;
+  Rigid3d enu_from_body;                                      ///< up is the height above home
+  Eigen::Vector3d velocity_in_enu = Eigen::Vector3d::Zero();  ///< [m/s], of the interpolation's segment
+  Eigen::Vector3d angular_velocity_in_body =
+      Eigen::Vector3d::Zero();               ///< [rad/s], of the interpolation's segment
+  std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
+};
+
+/// Why there is no state at a time.
+enum class NoState {
+  kNotYet,    ///< newer than the newest sample: ask again when more have come
+  kTooOld,    ///< older than the oldest sample kept
+  kInAGap,    ///< between two samples that lie too far apart
+  kNoSamples  ///< nothing has come yet
+};
+
+}  // namespace geoloc

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "calibration/drift.hpp"
+#include "calibration/envelope_cholesky.hpp"
+#include "calibration/landmark.hpp"
+#include "geoloc/calibration/calibration.hpp"
+
+namespace geoloc {
+
+/// Where the unknowns of the head stand: the nodes from the oldest on, then the calibration. What objects tie
+/// together lies near the diagonal then, but for the calibration's rows, which come last and fill nothing.
+struct HeadLayout {
+  std::uint32_t begin = 0;  ///< numbers of the nodes: oldest,
+  std::uint32_t end = 0;    ///< and one past the newest
+
+  Eigen::Index place_of(std::uint32_t node) const {
+    return kNodeSize * static_cast<Eigen::Index>(node - begin);
+  }
+  Eigen::Index place_of_calibration() const { return place_of(end); }
+  Eigen::Index size() const { return place_of_calibration() + CalibrationIndex::kSize; }
+};
+
+/// Least squares over everything seen so far: calibration and drift (the head) and all objects (the arrow's
+/// shaft), which are eliminated one by one because no look joins two of them. Exact up to linearisation
+/// (docs/method.md).
+class ArrowheadSolver {
+ public:
+  /// What the head was found to be, with all covariances that follow from it. It reads the solver's factor
+  /// and is valid until the next solve().
+  class Solution {
+   public:
+    Calibration calibration() const;
+
+    /// Mean of a node, by its running number.
+    NodeVector node(std::uint32_t number) const;
+    NodeMatrix newest_node_covariance() const;
+
+    /// Covariance of an object's absolute position [m^2]: its own noise and that of the head.
+    Eigen::Matrix2d covariance(const Landmark& landmark) const;
+
+    /// Covariance of the difference of two objects' positions [m^2]: what they share cancels.
+    Eigen::Matrix2d covariance_of_difference(const Landmark& a, const Landmark& b) const;
+
+    /// How strongly the position was seen to wander, in units of what the nodes' prior says: one step of
+    /// expectation maximisation. `drift` holds this solution's means. nullopt while there are too few nodes
+    /// to tell. Costs as much as a solution.
+    std::optional<double> observed_wandering(const DriftTimeline& drift) const;
+
+   private:
+    friend class ArrowheadSolver;
+    Solution(ArrowheadSolver& solver, const HeadLayout& layout);
+
+    ArrowheadSolver* solver_;
+    HeadLayout layout_;
+    Eigen::Matrix<double, kNodeSize + CalibrationIndex::kSize, kNodeSize + CalibrationIndex::kSize>
+        newest_covariance_;  // of the newest node and the calibration
+  };
+
+  /// Room for so many nodes.
+  ArrowheadSolver(const CalibrationPrior& prior, int max_nodes);
+
+  /// Solves for the head with the objects' sums. sigma_offset_m: 1-sigma per axis of the vehicle's constant
+  /// position error. nullopt where rounding has left no solution.
+  [[nodiscard]] std::optional<Solution> solve(const std::vector<const Landmark*>& landmarks,
+                                              double sigma_offset_m, const DriftTimeline& drift);
+
+  /// The calibration before anything was seen.
+  Calibration prior(double sigma_offset_m) const;
+
+ private:
+  CalibrationVector prior_sigma(double sigma_offset_m) const;
+  void add_prior(double sigma_offset_m, const DriftTimeline& drift, const HeadLayout& layout);
+  void add_landmark(const Landmark& landmark, const HeadLayout& layout);
+  void add_gain(const Landmark& landmark, const HeadLayout& layout, double sign);
+  Eigen::Matrix2d head_covariance(Eigen::Index first);
+
+  CalibrationVector prior_mean_;
+  CalibrationVector prior_sigma_;       // of all but the offset
+  EnvelopeCholesky information_;        // S, and its factor after solve()
+  Eigen::VectorXd right_hand_side_;     // h, and the head after solve()
+  EnvelopeCholesky::TwoColumns gains_;  // scratch: dx/d(head), transposed
+};
+
+}  // namespace geoloc

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+namespace geoloc {
+
+/// What all looks of a frame are off by together, as one vector: calibration (without the offset, which
+/// cancels between a look and a track that looks made), drift of the vehicle's state, noise of the frame.
+/// All Jacobians by it are whitened: by its components in units in which their prior covariance is one.
+struct SharedError {
+  static constexpr int kCalibrationSize = 5;
+  static constexpr int kCalibration = 0;  ///< boresight, latency, height
+  static constexpr int kDrift = 5;        ///< east, north, yaw
+  static constexpr int kFrame = 8;        ///< east, north
+  static constexpr int kTime = 10;        ///< of the frame's stamp
+  static constexpr int kSize = 11;
+
+  using Vector = Eigen::Matrix<double, kSize, 1>;
+  using Matrix = Eigen::Matrix<double, kSize, kSize>;
+  using Row = Eigen::Matrix<double, 2, kSize>;
+  using CalibrationMatrix = Eigen::Matrix<double, kCalibrationSize, kCalibrationSize>;
+  using CalibrationRow = Eigen::Matrix<double, 2, kCalibrationSize>;
+};
+
+}  // namespace geoloc

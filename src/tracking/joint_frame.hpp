@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "calibration/drift.hpp"
+#include "geoloc/calibration/calibration.hpp"
+#include "geoloc/geometry/time.hpp"
+#include "tracking/tracker.hpp"
+
+namespace geoloc {
+
+/// Over how many frames the noise of one lasts: by which the variance of a mean over many frames is larger
+/// than if their noise was independent.
+struct NoiseRepetition {
+  double of_position = 1.0;
+  double of_attitude = 1.0;
+};
+
+/// Tells how long the noise of one frame lasts, in frames of the present rate.
+class NoiseClock {
+ public:
+  NoiseClock(double position_time_constant_s, double attitude_time_constant_s)
+      : position_time_constant_s_(position_time_constant_s),
+        attitude_time_constant_s_(attitude_time_constant_s) {}
+
+  /// Frames in order of their time; where one is no later than the one before, the rate stands.
+  NoiseRepetition tick(VehicleTime now) {
+    const double pause_s = last_ ? seconds(now - *last_) : 0.0;
+    if (pause_s > 0.0) {
+      repetition_ = {std::max(1.0, 2.0 * position_time_constant_s_ / pause_s),
+                     std::max(1.0, 2.0 * attitude_time_constant_s_ / pause_s)};
+    }
+    last_ = now;
+    return repetition_;
+  }
+
+ private:
+  double position_time_constant_s_;
+  double attitude_time_constant_s_;
+  std::optional<VehicleTime> last_;
+  NoiseRepetition repetition_;
+};
+
+/// The present frame as the joint method sees it.
+struct JointFrame {
+  const Projector& projector;
+  const FrameView& view;
+  NodeSpan span;     ///< drift nodes around the frame's time
+  NodeVector drift;  ///< estimate at that time
+  NoiseRepetition repetition;
+
+  VehicleTime time() const { return view.vehicle.time; }
+};
+
+/// How far places stand from where the present frame shows them.
+struct FrameShift {
+  Eigen::Vector2d offset;  ///< constant error of the vehicle's position [m]
+  Eigen::Vector2d drift;   ///< of it, what wanders [m]
+  Eigen::Vector2d common;  ///< median of the frame's looks minus their tracks [m]
+
+  /// Where the frame shows a place: corrections undone.
+  Eigen::Vector2d shown(const Eigen::Vector2d& position_in_enu) const {
+    return position_in_enu - offset - drift + common;
+  }
+
+  /// The frame shows a place at itself minus this [m].
+  Eigen::Vector2d correction() const { return offset + drift - common; }
+};
+
+/// Noise that all looks of a frame share, and that the frames about it share in part.
+struct FrameNoise {
+  Eigen::Matrix2d covariance;  ///< of attitude and position [m^2]
+  double repetition;           ///< frames that share it
+  double time_constant_s;
+
+  /// Share that the frames' common noise leaves in a track of so many hits: all of it, until the track was
+  /// seen for longer than the noise lasts.
+  double share_in_track(int hits) const { return std::min(1.0, repetition / hits); }
+
+  /// Share of it that two moments have in common.
+  double common_share(Duration apart) const {
+    return std::exp(-std::abs(seconds(apart)) / std::max(time_constant_s, 1e-3));
+  }
+};
+
+}  // namespace geoloc

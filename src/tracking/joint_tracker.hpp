@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "calibration/arrowhead.hpp"
+#include "calibration/shared_error_estimate.hpp"
+#include "geoloc/tracking/joint_tracker_config.hpp"
+#include "tracking/detection_rate.hpp"
+#include "tracking/joint_frame.hpp"
+#include "tracking/known_point_matcher.hpp"
+#include "tracking/look_maker.hpp"
+#include "tracking/look_matcher.hpp"
+#include "tracking/moving_tracker.hpp"
+#include "tracking/solution_schedule.hpp"
+#include "tracking/track_table.hpp"
+#include "tracking/tracker.hpp"
+
+namespace geoloc {
+
+/// Objects, calibration and drift estimated jointly (docs/method.md): every look at an object is information
+/// on the object, on the camera's calibration and on the drift of the vehicle's state.
+class JointTracker final : public Tracker {
+ public:
+  /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
+  /// given.
+  JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points, int max_detections);
+
+  void update(const LocatedFrame& frame) override;
+
+  const std::vector<Track>& tracks() const override { return published_; }
+  const TrackCounters& counters() const override { return book_.counters; }
+  const Calibration& calibration() const override { return errors_.calibration; }
+  std::optional<Calibration> calibration_of_camera() const override;
+  const std::vector<KnownPointReport>& known_points() const override { return known_points_.reports(); }
+
+ private:
+  using Solution = ArrowheadSolver::Solution;
+
+  JointFrame begin_frame(const LocatedFrame& frame);
+  void weigh_missed(const std::vector<Look>& looks, const JointFrame& frame, const FrameShift& shift);
+  void compare_soon(const RestingObject& track);
+  void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
+  void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
+                      const JointFrame& frame);
+  void begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
+                       const JointFrame& frame);
+  void remove_improbable();
+  void refine(const JointFrame& frame, const FrameNoise& noise);
+  std::optional<Solution> solve(const JointFrame& frame);
+  void learn_wandering(const Solution& solution);
+  void merge_compatible(const Solution& solution, const JointFrame& frame, const FrameNoise& noise);
+  void merge(std::size_t kept, std::size_t gone);
+  bool match_known_points(const Solution& solution, const FrameNoise& noise);
+  void publish();
+
+  const JointTrackerConfig config_;
+  ArrowheadSolver solver_;
+  SharedErrorEstimate errors_;
+  NoiseClock noise_clock_;
+  SolutionSchedule schedule_;
+  LookMaker look_maker_;
+  LookMatcher look_matcher_;
+  DetectionRate detection_rate_;
+  KnownPointMatcher known_points_;
+  TrackTable tracks_;
+  MovingTracker moving_;
+  TrackBook book_;
+  std::vector<Track> published_;
+  std::vector<const Landmark*> landmarks_;                      // scratch of solve
+  std::vector<KnownPointMatcher::Candidate> known_candidates_;  // scratch of match_known_points
+};
+
+}  // namespace geoloc

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/tracking/known_points.hpp"
+#include "tracking/joint_association.hpp"
+
+namespace geoloc {
+
+/// Which objects are the known points. All known points are off from their objects by the same error of the
+/// vehicle's position, so they are matched jointly, and what contradicts the others is left out.
+class KnownPointMatcher {
+ public:
+  /// An object that may be one of the points. One that is not confirmed yet is not matched, but stands in the
+  /// way of its neighbours.
+  struct Candidate {
+    std::uint64_t track_id;
+    bool is_confirmed;
+    int class_id;
+    Eigen::Vector2d position_in_enu;
+  };
+
+  /// Uncertainty of the candidates' positions, 1-sigma per axis.
+  struct Sigma {
+    double shared_m;  ///< of the error that they share
+    double own_m;     ///< of the rest
+  };
+
+  /// What a matched point says of its object.
+  struct Survey {
+    Eigen::Vector2d position_in_enu;
+    double sigma_m;  ///< 1-sigma per axis
+  };
+
+  KnownPointMatcher(std::vector<KnownPoint> points, int max_tracks);
+
+  bool is_empty() const { return points_.empty(); }
+
+  /// Counts the points that a frame covers. `is_covered(position_in_enu)` tells whether the camera looks at a
+  /// place and away from the image's edge.
+  template <typename IsCovered>
+  void cover(const LocalFrame& frame, const IsCovered& is_covered) {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!entries_[i].position_in_enu)
+        entries_[i].position_in_enu = frame.to_local(points_[i].position).position_in_enu;
+      if (is_covered(*entries_[i].position_in_enu)) ++entries_[i].frames_covered;
+    }
+  }
+
+  /// Matches what is not matched yet. True where something new was matched.
+  bool match(const std::vector<Candidate>& candidates, const Sigma& sigma, double gate, double ambiguity);
+
+  /// Track `gone` is now called `kept`.
+  void rename(std::uint64_t gone, std::uint64_t kept);
+
+  /// A track is gone: its point is to be found again.
+  void forget(std::uint64_t track_id);
+
+  /// What is known of a track that is one of the points.
+  std::optional<Survey> survey_of(std::uint64_t track_id) const;
+
+  const std::vector<KnownPointReport>& reports() const { return reports_; }
+
+ private:
+  struct Entry {
+    std::optional<Eigen::Vector2d> position_in_enu;  // once a frame was seen
+    int frames_covered = 0;
+  };
+
+  void list_open();
+  void add_pairings(std::size_t open, const std::vector<Candidate>& candidates, const Sigma& sigma);
+  std::optional<std::size_t> point_of(std::uint64_t track_id) const;
+
+  std::vector<KnownPoint> points_;
+  std::vector<Entry> entries_;             // of the points
+  std::vector<KnownPointReport> reports_;  // of the points
+  std::vector<std::size_t> open_;          // scratch: points to match
+  JointAssociation association_;
+};
+
+}  // namespace geoloc

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/look_maker.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "calibration/linearize.hpp"
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc {
+namespace {
+
+using Index = CalibrationIndex;
+
+/// Covariances of what a look's position is off by, besides the detector's noise [m^2].
+struct Noise {
+  Eigen::Matrix2d time;
+  Eigen::Matrix2d attitude;
+  Eigen::Matrix2d position;
+};
+
+/// A detector that fires twice on one object: the more confident box came first.
+bool is_duplicate(const Look& look, const std::vector<Look>& kept, double duplicate_share) {
+  return std::any_of(kept.begin(), kept.end(), [&](const Look& other) {
+    return other.detection.class_id == look.detection.class_id &&
+           (other.position - look.position).squaredNorm() <
+               std::pow(duplicate_share * std::min(other.size_m, look.size_m), 2);
+  });
+}
+
+Eigen::Matrix2d mean_frame_noise(const std::vector<Look>& looks) {
+  Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+  for (const Look& look : looks) sum += look.frame_noise;
+  return looks.empty() ? sum : sum / static_cast<double>(looks.size());
+}
+
+Noise noise_of(const FixJacobians& jacobians, const JointTrackerConfig& config,
+               const SharedErrorEstimate& errors) {
+  const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
+  const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
+  const double position_scale = config.fast_share * errors.drift.position_scale() * errors.accuracy.radial_m;
+  return {std::pow(config.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose(),
+          std::pow(config.sigma_attitude_deg * kRadPerDeg, 2) * turn * turn.transpose(),
+          std::pow(position_scale, 2) / 2.0 * Eigen::Matrix2d::Identity()};
+}
+
+/// The calibration that the fix already holds: all but the offset.
+CalibrationVector applied(const Calibration& calibration) {
+  CalibrationVector applied = calibration.mean;
+  applied.segment<2>(Index::kOffset).setZero();
+  return applied;
+}
+
+}  // namespace
+
+bool is_of_moving_class(const Detection& detection, const MovingConfig& moving) {
+  return std::find(moving.classes.begin(), moving.classes.end(), detection.class_id) != moving.classes.end();
+}
+
+LookMaker::LookMaker(const JointTrackerConfig& config, int max_detections) : config_(config) {
+  looks_.at_rest.reserve(max_detections);
+  if (!config.moving.classes.empty()) looks_.moving.reserve(max_detections);
+}
+
+const FrameLooks& LookMaker::make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,
+                                  const SharedErrorEstimate& errors) {
+  looks_.at_rest.clear();
+  looks_.moving.clear();
+  const auto is_moving = [&](const LocatedDetection& located) {
+    return is_of_moving_class(located.detection, config_.moving);
+  };
+  const auto at_rest =
+      static_cast<double>(std::count_if(detections.begin(), detections.end(), std::not_fn(is_moving)));
+  for (const LocatedDetection& located : detections) {
+    const Look look = make_look(located, at_rest, frame, errors);
+    std::vector<Look>& kind = is_moving(located) ? looks_.moving : looks_.at_rest;
+    if (!is_duplicate(look, kind, config_.duplicate_share)) kind.push_back(look);
+  }
+  looks_.frame_noise = mean_frame_noise(looks_.at_rest.empty() ? looks_.moving : looks_.at_rest);
+  const Eigen::Matrix2d frame_root = looks_.frame_noise.llt().matrixL();
+  for (std::vector<Look>* kind : {&looks_.at_rest, &looks_.moving}) {
+    for (Look& look : *kind) look.jacobian.middleCols<2>(SharedError::kFrame) = frame_root;
+  }
+  return looks_;
+}
+
+/// The attitude's error is the same in all looks of a frame: N of them with N times its variance say as much
+/// of it as one does, and would be N independent witnesses without. What the position does within seconds is
+/// shared too, but for the most part known from the nodes; it counts once.
+Look LookMaker::make_look(const LocatedDetection& located, double looks_that_share, const JointFrame& frame,
+                          const SharedErrorEstimate& errors) const {
+  const GroundFix& fix = located.fix;
+  const Projector& projector = frame.projector;
+  const double height_m =
+      frame.view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
+  const FixJacobians jacobians = jacobians_of(fix, frame.view, height_m);
+  const Noise noise = noise_of(jacobians, config_, errors);
+
+  Look look;
+  look.detection = located.detection;
+  look.pixel_noise = fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
+  look.frame_noise = noise.attitude + noise.position;
+  look.observation.value = fix.position_in_enu - jacobians.calibration * applied(errors.calibration);
+  look.observation.calibration_jacobian = jacobians.calibration;
+  look.observation.node_jacobian = jacobians.node;
+  look.observation.span = frame.span;
+  look.observation.information =
+      (look.pixel_noise + noise.time + frame.repetition.of_attitude * looks_that_share * noise.attitude +
+       frame.repetition.of_position * noise.position)
+          .inverse();
+  look.position = fix.position_in_enu + errors.calibration.offset_m() + jacobians.node * frame.drift;
+  look.jacobian =
+      errors.whitened(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
+  look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * jacobians.calibration.col(Index::kLatency);
+  const CameraIntrinsics& camera = projector.camera().intrinsics();
+  const double ground_per_pixel_m2 = std::abs(fix.ground_from_pixel.determinant());
+  look.clutter_density =
+      config_.clutter_per_frame / (ground_per_pixel_m2 * camera.width_px * camera.height_px);
+  look.ground_per_pixel_m = std::sqrt(ground_per_pixel_m2);
+  look.size_m = look.ground_per_pixel_m * std::min(located.detection.box.width, located.detection.box.height);
+  return look;
+}
+
+}  // namespace geoloc

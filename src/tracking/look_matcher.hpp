@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "geoloc/tracking/joint_tracker_config.hpp"
+#include "tracking/joint_association.hpp"
+#include "tracking/joint_frame.hpp"
+#include "tracking/look.hpp"
+#include "tracking/track_table.hpp"
+
+namespace geoloc {
+
+/// How a frame's looks are explained.
+struct Explanation {
+  std::vector<JointAssociation::Match> match_of_look;
+  Eigen::Vector2d common_shift = Eigen::Vector2d::Zero();  ///< median of looks minus their tracks [m]
+};
+
+/// Which look shows which object at rest.
+class LookMatcher {
+ public:
+  /// `config` must outlive it.
+  LookMatcher(const JointTrackerConfig& config, int max_detections);
+
+  /// Explains the looks and notes in the tracks what they are evidence of. The reference holds until the next
+  /// call.
+  const Explanation& explain(const std::vector<Look>& looks, const FrameNoise& noise, VehicleTime now,
+                             TrackTable& tracks);
+
+ private:
+  /// How far a track can be from a look that shows it: a bound that is cheap for every pair of them.
+  struct Reach {
+    Eigen::Vector2d position;
+    double own_variance = 0.0;  // trace
+    double shared_m = 0.0;      // distance of its Jacobian from the looks' mean one
+  };
+
+  void add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, VehicleTime now,
+                    const TrackTable& tracks);
+  void list_reaches(const TrackTable& tracks, const SharedError::Row& mean, double frame_variance);
+  Pairing pairing(const Look& look, const RestingObject& track, const FrameNoise& noise,
+                  VehicleTime now) const;
+  void prefer_older_twins(const TrackTable& tracks);
+  const Pairing* oldest_twin(std::size_t look, const TrackTable& tracks) const;
+  Eigen::Vector2d common_shift(const std::vector<Look>& looks, const TrackTable& tracks);
+  void note_evidence(TrackTable& tracks) const;
+
+  const JointTrackerConfig& config_;
+  JointAssociation association_;
+  Explanation explanation_;
+  std::vector<Reach> reach_of_track_;  // scratch of add_pairings
+  std::vector<double> median_scratch_;
+};
+
+}  // namespace geoloc

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "calibration/shared_error.hpp"
+#include "geoloc/geometry/time.hpp"
+#include "geoloc/tracking/track.hpp"
+#include "tracking/existence.hpp"
+#include "tracking/look.hpp"
+#include "tracking/neighbours.hpp"
+
+namespace geoloc {
+
+/// Looks that make a track worth comparing with others and with known points.
+inline constexpr int kHitsToCompare = 3;
+
+/// Ids and counts that the objects of one flight share.
+struct TrackBook {
+  std::uint64_t next_id = 1;
+  TrackCounters counters;
+};
+
+/// What objects at rest and moving ones have in common: the life cycle.
+struct TrackedObject {
+  Track track;
+  Existence existence{0.5};
+  Neighbours neighbours;
+  VehicleTime last_look{};
+  double size_m = 0.0;  ///< apparent, mean
+  /// d position / d shared error of the next looks, whitened [m].
+  SharedError::Row gain = SharedError::Row::Zero();
+  bool is_seen = false;  ///< in the present frame
+
+  bool is_confirmed() const { return track.status == TrackStatus::kConfirmed; }
+};
+
+/// A new object that a look shows for the first time; its position is the caller's to set.
+inline void begin_object(TrackedObject& object, double birth_probability, HostTime captured_at,
+                         TrackBook& book) {
+  object.existence = Existence(birth_probability);
+  object.track.id = book.next_id++;
+  object.track.first_seen = captured_at;
+  object.is_seen = true;
+  ++book.counters.created;
+}
+
+/// The look shows the object: what it tells of it besides its position.
+inline void record_look(TrackedObject& object, const Look& look, VehicleTime time, HostTime captured_at) {
+  object.last_look = time;
+  object.size_m += (look.size_m - object.size_m) / (object.track.hits + 1);
+  record_detection(object.track, look.detection, captured_at);
+}
+
+inline void confirm_if_probable(TrackedObject& object, double confirm_probability) {
+  if (object.existence.probability() >= confirm_probability) object.track.status = TrackStatus::kConfirmed;
+}
+
+/// Two turned out to be one: what `gone` knew besides its position goes to `kept`.
+inline void merge_life(TrackedObject& kept, const TrackedObject& gone) {
+  kept.last_look = std::max(kept.last_look, gone.last_look);
+  kept.existence.merge(gone.existence);
+  kept.neighbours.merge(gone.neighbours);
+}
+
+}  // namespace geoloc

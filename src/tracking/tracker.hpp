@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "geoloc/calibration/calibration.hpp"
+#include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/tracking/known_points.hpp"
+#include "geoloc/tracking/track.hpp"
+
+namespace geoloc {
+
+/// A frame whose detections are located: what a tracker learns from.
+struct LocatedFrame {
+  /// In a canonical order (see Geolocator), located with the tracker's calibration() applied.
+  const std::vector<LocatedDetection>& detections;
+  const Projector& projector;
+  const FrameView& view;
+  const LocalFrame& local_frame;  ///< of all positions; the same throughout a flight
+};
+
+/// Makes objects of the fixes of one frame after another.
+class Tracker {
+ public:
+  Tracker() = default;
+  virtual ~Tracker() = default;
+  Tracker(const Tracker&) = delete;
+  Tracker& operator=(const Tracker&) = delete;
+
+  virtual void update(const LocatedFrame& frame) = 0;
+
+  /// Tentative and confirmed, in order of their ids.
+  virtual const std::vector<Track>& tracks() const = 0;
+  virtual const TrackCounters& counters() const = 0;
+
+  /// What fixes are to be located with: the camera's constant errors and those of the autopilot's state in
+  /// one. Zero where the method learns none.
+  virtual const Calibration& calibration() const = 0;
+
+  /// An estimate of the camera's errors alone: the autopilot's own are part of its sigma. nullopt where the
+  /// method learns none.
+  virtual std::optional<Calibration> calibration_of_camera() const = 0;
+
+  /// In the order of the configuration; empty where the method uses none.
+  virtual const std::vector<KnownPointReport>& known_points() const = 0;
+};
+
+}  // namespace geoloc
