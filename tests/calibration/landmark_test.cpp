@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/calibration/landmark.hpp"
+#include "calibration/landmark.hpp"
 
 #include <gtest/gtest.h>
 

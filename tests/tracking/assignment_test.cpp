@@ -12,6 +12,7 @@ namespace geoloc {
 namespace {
 
 constexpr double kMaxCost = 3.0;
+constexpr std::size_t kAlone = AssignmentSolver::kUnassigned;
 
 double capped(double cost) {
   return cost < kMaxCost ? cost : kMaxCost;
@@ -31,11 +32,11 @@ double brute_force(const Eigen::MatrixXd& costs, Eigen::Index row, std::vector<c
   return best;
 }
 
-double cost_of(const Eigen::MatrixXd& costs, const std::vector<int>& column_of_row) {
+double cost_of(const Eigen::MatrixXd& costs, const std::vector<std::size_t>& column_of_row) {
   double sum = 0.0;
   for (Eigen::Index row = 0; row < costs.rows(); ++row) {
-    const int column = column_of_row[static_cast<std::size_t>(row)];
-    sum += column == AssignmentSolver::kUnassigned ? kMaxCost : capped(costs(row, column));
+    const std::size_t column = column_of_row[static_cast<std::size_t>(row)];
+    sum += column == kAlone ? kMaxCost : capped(costs(row, static_cast<Eigen::Index>(column)));
   }
   return sum;
 }
@@ -72,10 +73,10 @@ TEST_P(AssignmentLaws, NoColumnIsGivenTwiceAndNoneBeyondTheLimit) {
   const auto& result = solver.solve(costs, kMaxCost);
   ASSERT_EQ(result.size(), static_cast<std::size_t>(rows));
   for (int row = 0; row < rows; ++row) {
-    const int column = result[static_cast<std::size_t>(row)];
-    if (column == AssignmentSolver::kUnassigned) continue;
-    EXPECT_LT(costs(row, column), kMaxCost);
-    EXPECT_EQ(++count[static_cast<std::size_t>(column)], 1);
+    const std::size_t column = result[static_cast<std::size_t>(row)];
+    if (column == kAlone) continue;
+    EXPECT_LT(costs(row, static_cast<Eigen::Index>(column)), kMaxCost);
+    EXPECT_EQ(++count[column], 1);
   }
 }
 
@@ -90,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, AssignmentLaws,
 TEST(Assignment, AnswersEmptyProblems) {
   AssignmentSolver solver;
   EXPECT_TRUE(solver.solve(Eigen::MatrixXd(0, 5), kMaxCost).empty());
-  EXPECT_EQ(solver.solve(Eigen::MatrixXd(2, 0), kMaxCost), (std::vector<int>{-1, -1}));
+  EXPECT_EQ(solver.solve(Eigen::MatrixXd(2, 0), kMaxCost), (std::vector<std::size_t>{kAlone, kAlone}));
 }
 
 TEST(Assignment, NeverPairsWhatIsNotANumber) {
@@ -98,7 +99,7 @@ TEST(Assignment, NeverPairsWhatIsNotANumber) {
   Eigen::MatrixXd costs(2, 2);
   costs << nan, 1.0, nan, std::numeric_limits<double>::infinity();
   AssignmentSolver solver;
-  EXPECT_EQ(solver.solve(costs, kMaxCost), (std::vector<int>{1, -1}));
+  EXPECT_EQ(solver.solve(costs, kMaxCost), (std::vector<std::size_t>{1, kAlone}));
 }
 
 TEST(Assignment, PrefersTheGlobalOptimumToTheGreedyOne) {
@@ -106,7 +107,7 @@ TEST(Assignment, PrefersTheGlobalOptimumToTheGreedyOne) {
   costs << 0.1, 0.2,  //
       0.2, 2.9;       // greedy would pair 0-0 and pay 3.0
   AssignmentSolver solver;
-  EXPECT_EQ(solver.solve(costs, kMaxCost), (std::vector<int>{1, 0}));
+  EXPECT_EQ(solver.solve(costs, kMaxCost), (std::vector<std::size_t>{1, 0}));
 }
 
 }  // namespace

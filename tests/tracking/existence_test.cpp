@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/existence.hpp"
+#include "tracking/existence.hpp"
 
 #include <gtest/gtest.h>
 

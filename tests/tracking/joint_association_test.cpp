@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <random>
 
 namespace geoloc {
@@ -15,7 +16,7 @@ constexpr double kGate = 11.8, kAmbiguity = 9.0;
 constexpr double kOwnSigma_m = 0.05;
 
 /// All looks share a position error of `shared_sigma_m` per axis; nothing else is unknown.
-Pairing pairing(int look, int track, const Eigen::Vector2d& residual, double shared_sigma_m) {
+Pairing pairing(std::size_t look, std::size_t track, const Eigen::Vector2d& residual, double shared_sigma_m) {
   Pairing pairing;
   pairing.look = look;
   pairing.track = track;
@@ -32,7 +33,7 @@ std::vector<JointAssociation::Match> solve(const std::vector<Eigen::Vector2d>& l
   association.begin(looks.size(), kGate, kAmbiguity);
   for (std::size_t i = 0; i < looks.size(); ++i) {
     for (std::size_t k = 0; k < tracks.size(); ++k)
-      association.add(pairing(static_cast<int>(i), static_cast<int>(k), looks[i] - tracks[k], sigma_m));
+      association.add(pairing(i, k, looks[i] - tracks[k], sigma_m));
   }
   return association.solve();
 }
@@ -40,9 +41,9 @@ std::vector<JointAssociation::Match> solve(const std::vector<Eigen::Vector2d>& l
 TEST(JointAssociation, MatchesEachLookToTheTrackItIsAt) {
   const std::vector<Eigen::Vector2d> tracks{{0, 0}, {10, 0}, {0, 10}};
   const auto matches = solve({{10.03, 0}, {0, 0.02}, {30, 30}}, tracks, 0.5);
-  EXPECT_EQ(matches[0].track, 1);
-  EXPECT_EQ(matches[1].track, 0);
-  EXPECT_EQ(matches[2].track, JointAssociation::kNone);
+  EXPECT_EQ(matches[0].track, 1U);
+  EXPECT_EQ(matches[1].track, 0U);
+  EXPECT_EQ(matches[2].track, std::nullopt);
   for (const auto& match : matches) EXPECT_FALSE(match.is_ambiguous);
 }
 
@@ -53,7 +54,7 @@ TEST(JointAssociation, SeesThroughAShiftThatPutsEveryLookNearerToTheWrongTrack) 
   for (const Eigen::Vector2d& track : tracks) looks.push_back(track + Eigen::Vector2d(0.8, 0.0));
   const auto matches = solve(looks, tracks, 0.5);
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    EXPECT_EQ(matches[i].track, static_cast<int>(i));
+    EXPECT_EQ(matches[i].track, i);
     EXPECT_FALSE(matches[i].is_ambiguous);
     EXPECT_LT(matches[i].innovation.norm(), 0.05);
   }
@@ -89,13 +90,14 @@ double joint_cost(const std::vector<Pairing>& pairs, std::size_t alone) {
 
 /// The least cost of all one-to-one explanations, by trying every one.
 void try_all(std::size_t look, std::size_t looks, std::size_t tracks, const std::vector<Pairing>& all,
-             std::vector<Pairing>& chosen, double& best, std::vector<int>& best_tracks) {
+             std::vector<Pairing>& chosen, double& best,
+             std::vector<std::optional<std::size_t>>& best_tracks) {
   if (look == looks) {
     const double cost = joint_cost(chosen, looks - chosen.size());
     if (cost >= best) return;
     best = cost;
-    best_tracks.assign(looks, JointAssociation::kNone);
-    for (const Pairing& pair : chosen) best_tracks[static_cast<std::size_t>(pair.look)] = pair.track;
+    best_tracks.assign(looks, std::nullopt);
+    for (const Pairing& pair : chosen) best_tracks[pair.look] = pair.track;
     return;
   }
   try_all(look + 1, looks, tracks, all, chosen, best, best_tracks);
@@ -125,11 +127,10 @@ TEST(JointAssociation, FindsTheBestOfAllExplanationsWhereItClaimsOne) {
 
     std::vector<Pairing> all, chosen;
     for (std::size_t i = 0; i < looks.size(); ++i) {
-      for (std::size_t k = 0; k < tracks.size(); ++k)
-        all.push_back(pairing(static_cast<int>(i), static_cast<int>(k), looks[i] - tracks[k], 0.5));
+      for (std::size_t k = 0; k < tracks.size(); ++k) all.push_back(pairing(i, k, looks[i] - tracks[k], 0.5));
     }
     double best = std::numeric_limits<double>::infinity();
-    std::vector<int> best_tracks;
+    std::vector<std::optional<std::size_t>> best_tracks;
     try_all(0, looks.size(), tracks.size(), all, chosen, best, best_tracks);
     for (std::size_t i = 0; i < looks.size(); ++i) {
       if (matches[i].is_ambiguous) continue;

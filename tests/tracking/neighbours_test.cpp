@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/neighbours.hpp"
+#include "tracking/neighbours.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "geoloc/geometry/attitude.hpp"
@@ -30,14 +31,15 @@ class PaperTrackerLife : public ::testing::Test {
     FrameView view;
     view.enu_from_camera = enu_from_body * body_from_camera(CameraMount{});
     view.captured_at_host = now_;
-    tracker_.update(detections, projector_, view);
+    tracker_->update({detections, projector_, view, local_frame_});
   }
 
-  const std::vector<Track>& tracks() const { return tracker_.tracks(); }
+  const std::vector<Track>& tracks() const { return tracker_->tracks(); }
 
   Projector projector_{ProjectorConfig{}, CameraIntrinsics{}};
   PaperTrackerConfig config_;
-  PaperTracker tracker_{config_, 64};
+  LocalFrame local_frame_{Geodetic{}};
+  std::optional<PaperTracker> tracker_{std::in_place, config_, 64};
   HostTime now_{std::chrono::seconds{1000}};
 };
 
@@ -86,14 +88,14 @@ TEST_F(PaperTrackerLife, HitsForgiveMisses) {
 TEST_F(PaperTrackerLife, MergesConfirmedNeighboursUnderTheOlderName) {
   PaperTrackerConfig narrow;
   narrow.measurement_sigma_m = 0.1;
-  tracker_ = PaperTracker(narrow, 64);
+  tracker_.emplace(narrow, 64);
   for (int i = 0; i < 6; ++i) see({{0, 0}, {1.5, 0}});
   ASSERT_EQ(tracks().size(), 2U);  // too far apart to merge
   const auto older = tracks()[0].id;
   for (int i = 0; i < 200 && tracks().size() == 2; ++i) see({{0, 0}, {1.5 - 0.02 * i, 0}});
   ASSERT_EQ(tracks().size(), 1U);
   EXPECT_EQ(tracks()[0].id, older);
-  EXPECT_EQ(tracker_.counters().merged, 1U);
+  EXPECT_EQ(tracker_->counters().merged, 1U);
   EXPECT_GE(tracks()[0].hits, 12);
 }
 
@@ -115,10 +117,10 @@ TEST_F(PaperTrackerLife, KeepsTheMajorityClass) {
 TEST_F(PaperTrackerLife, RefusesObjectsBeyondItsRoomAndCountsThem) {
   PaperTrackerConfig small;
   small.max_tracks = 3;
-  tracker_ = PaperTracker(small, 64);
+  tracker_.emplace(small, 64);
   see({{-12, 0}, {-6, 0}, {0, 0}, {6, 0}, {12, 0}});
   EXPECT_EQ(tracks().size(), 3U);
-  EXPECT_EQ(tracker_.counters().refused, 2U);
+  EXPECT_EQ(tracker_->counters().refused, 2U);
 }
 
 TEST(PaperTrackerConfig, NamesEveryProblem) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/visibility.hpp"
+#include "tracking/visibility.hpp"
 
 #include <gtest/gtest.h>
 

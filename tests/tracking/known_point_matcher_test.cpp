@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/known_point_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+namespace geoloc {
+namespace {
+
+constexpr double kMatchGate = 11.8, kMatchAmbiguity = 9.0;
+const LocalFrame kFrame({-22.906, -43.133});
+
+KnownPoint point_at(const Eigen::Vector2d& position_in_enu) {
+  KnownPoint point;
+  point.position = kFrame.to_geodetic(position_in_enu);
+  return point;
+}
+
+void cover(KnownPointMatcher& known, int frames) {
+  for (int frame = 0; frame < frames; ++frame)
+    known.cover(kFrame, [](const Eigen::Vector2d&) { return true; });
+}
+
+/// Looked at long enough.
+KnownPointMatcher covered(const std::vector<KnownPoint>& points) {
+  KnownPointMatcher known(points, 10);
+  cover(known, 30);
+  return known;
+}
+
+bool match(KnownPointMatcher& known, const std::vector<KnownPointMatcher::Candidate>& candidates) {
+  constexpr double kShared_m = 0.5, kOwn_m = 0.1;
+  return known.match(candidates, {kShared_m, kOwn_m}, kMatchGate, kMatchAmbiguity);
+}
+
+TEST(KnownPoints, AreMatchedToTheObjectsThatAreAllOffByTheSame) {
+  KnownPointMatcher known = covered({point_at({0, 0}), point_at({20, 0})});
+  // Each point has a neighbour that is nearer to it than its own object, 0.7 m east.
+  EXPECT_TRUE(match(known, {{1, true, 0, {0.7, 0.0}},
+                            {2, true, 0, {-0.5, 0.0}},
+                            {3, true, 0, {20.7, 0.0}},
+                            {4, true, 0, {20.0, 0.6}}}));
+  EXPECT_EQ(known.reports()[0].track_id, 1U);
+  EXPECT_EQ(known.reports()[1].track_id, 3U);
+  ASSERT_TRUE(known.survey_of(3));
+  EXPECT_LT((known.survey_of(3)->position_in_enu - Eigen::Vector2d(20, 0)).norm(), 1e-6);
+  EXPECT_EQ(known.survey_of(3)->sigma_m, KnownPoint{}.sigma_m);
+  EXPECT_FALSE(known.survey_of(2));
+}
+
+TEST(KnownPoints, ThatContradictEachOtherAreNotBelieved) {
+  KnownPointMatcher known = covered({point_at({0, 0}), point_at({20, 0})});
+  EXPECT_FALSE(match(known, {{1, true, 0, {0.8, 0.0}}, {2, true, 0, {19.0, 0.0}}}));
+  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kAmbiguous);
+  EXPECT_EQ(known.reports()[1].status, KnownPointStatus::kAmbiguous);
+}
+
+TEST(KnownPoints, AreReportedWhereNoObjectIs) {
+  KnownPointMatcher known = covered({point_at({0, 0}), point_at({40, 0})});
+  EXPECT_TRUE(match(known, {{7, true, 0, {0.3, 0.0}}}));
+  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kMatched);
+  EXPECT_EQ(known.reports()[1].status, KnownPointStatus::kNoObject);
+}
+
+TEST(KnownPoints, WaitUntilTheCameraHasLookedAtTheirPlaceInTwentyFrames) {
+  KnownPointMatcher known({point_at({0, 0}), point_at({20, 0})}, 10);
+  const std::vector<KnownPointMatcher::Candidate> candidates{{7, true, 0, {0.1, 0.0}},
+                                                             {8, true, 0, {20.1, 0.0}}};
+  for (int frame = 0; frame < 20; ++frame) {
+    EXPECT_FALSE(match(known, candidates)) << frame;
+    EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kNotCovered);
+    known.cover(kFrame, [](const Eigen::Vector2d& place) { return place.x() < 10.0; });
+  }
+  EXPECT_TRUE(match(known, candidates));
+  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kMatched);
+  EXPECT_EQ(known.reports()[1].status, KnownPointStatus::kNotCovered);
+}
+
+TEST(KnownPoints, AreMatchedOnce) {
+  KnownPointMatcher known({point_at({0, 0}), point_at({20, 0})}, 10);
+  known.cover(kFrame, [](const Eigen::Vector2d&) { return false; });
+  for (int frame = 0; frame < 20; ++frame)
+    known.cover(kFrame, [](const Eigen::Vector2d& place) { return place.x() < 10.0; });
+  const std::vector<KnownPointMatcher::Candidate> candidates{{7, true, 0, {0.1, 0.0}},
+                                                             {8, true, 0, {20.1, 0.0}}};
+  EXPECT_TRUE(match(known, candidates));
+  EXPECT_FALSE(match(known, candidates));
+  cover(known, 20);
+  EXPECT_TRUE(match(known, candidates));
+  EXPECT_EQ(known.reports()[0].track_id, 7U);
+  EXPECT_EQ(known.reports()[1].track_id, 8U);
+}
+
+/// The object of one point may not be taken for another's, though it is the nearest one there.
+TEST(KnownPoints, DoNotShareAnObject) {
+  KnownPointMatcher known = covered({point_at({0, 0})});
+  ASSERT_TRUE(match(known, {{7, true, 0, {0.1, 0.0}}}));
+  KnownPointMatcher two({point_at({0, 0}), point_at({0.6, 0})}, 10);
+  for (int frame = 0; frame < 20; ++frame)
+    two.cover(kFrame, [](const Eigen::Vector2d& place) { return place.x() < 0.3; });
+  ASSERT_TRUE(match(two, {{7, true, 0, {0.1, 0.0}}}));
+  cover(two, 20);
+  EXPECT_FALSE(match(two, {{7, true, 0, {0.1, 0.0}}}));
+  EXPECT_EQ(two.reports()[1].status, KnownPointStatus::kNoObject);
+}
+
+TEST(KnownPoints, AreOfTheirClass) {
+  KnownPoint point = point_at({0, 0});
+  point.class_id = 2;
+  KnownPointMatcher known = covered({point});
+  EXPECT_FALSE(match(known, {{7, true, 0, {0.1, 0.0}}}));
+  EXPECT_TRUE(match(known, {{7, true, 0, {0.1, 0.0}}, {8, true, 2, {0.4, 0.0}}}));
+  EXPECT_EQ(known.reports()[0].track_id, 8U);
+}
+
+TEST(KnownPoints, AreNotMatchedToWhatMayNotExist) {
+  KnownPointMatcher known = covered({point_at({0, 0})});
+  EXPECT_FALSE(match(known, {{7, false, 0, {0.1, 0.0}}}));
+  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kAmbiguous);
+}
+
+TEST(KnownPoints, FollowTheirTracks) {
+  KnownPointMatcher known = covered({point_at({0, 0})});
+  ASSERT_TRUE(match(known, {{7, true, 0, {0.1, 0.0}}}));
+  known.rename(5, 6);  // another's
+  EXPECT_TRUE(known.survey_of(7));
+  known.rename(7, 3);
+  EXPECT_TRUE(known.survey_of(3));
+  EXPECT_EQ(known.reports()[0].track_id, 3U);
+  known.forget(7);
+  EXPECT_TRUE(known.survey_of(3));
+  known.forget(3);
+  EXPECT_FALSE(known.survey_of(3));
+  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kNotCovered);
+  EXPECT_TRUE(match(known, {{9, true, 0, {0.1, 0.0}}}));
+}
+
+TEST(KnownPoints, NoneAreMatchedToNothing) {
+  KnownPointMatcher none({}, 10);
+  EXPECT_TRUE(none.is_empty());
+  EXPECT_FALSE(match(none, {{7, true, 0, {0.1, 0.0}}}));
+  EXPECT_FALSE(covered({point_at({0, 0})}).is_empty());
+}
+
+}  // namespace
+}  // namespace geoloc
