@@ -8,6 +8,7 @@
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/io/output/text.hpp"
+#include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -41,13 +42,15 @@ io::CameraView camera_view(const Geolocator& geolocator, HostTime captured_at) {
   const Rigid3d& enu_from_camera = geolocator.view().enu_from_camera;
   const LocalFrame& frame = *geolocator.local_frame();
   const CameraIntrinsics& image = geolocator.projector().camera().intrinsics();
-  const double home_height_msl_m = frame.height_ellipsoid_m();
   io::CameraView view;
   view.captured_at = captured_at;
   view.time = geolocator.view().vehicle.time;
   view.camera = frame.to_geodetic(enu_from_camera.translation.head<2>());
-  view.camera_height_msl_m = home_height_msl_m + enu_from_camera.translation.z();
-  view.ground_height_msl_m = home_height_msl_m + geolocator.projector().config().ground_height_above_home_m;
+  if (const auto home_height_msl_m = geolocator.state().home_height_msl_m()) {
+    view.camera_height_msl_m = *home_height_msl_m + enu_from_camera.translation.z();
+    view.ground_height_msl_m =
+        *home_height_msl_m + geolocator.projector().config().ground_height_above_home_m;
+  }
   view.ned_from_camera = enu_from_ned().conjugate() * enu_from_camera.rotation *
                          body_from_forward_camera().conjugate();  // its axes to forward, right, down
   const auto centre = geolocator.projector().project(

@@ -58,7 +58,7 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
     next.mean = next.transition.cwiseProduct(node(end_ - 1).mean);
   }
   next.information = (variance.array() * (1.0 - next.transition.array().square())).inverse();
-  nodes_[place(end_)] = next;
+  nodes_[slot(end_)] = next;
   ++end_;
 }
 

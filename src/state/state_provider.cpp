@@ -79,8 +79,9 @@ void StateProvider::add(const PositionSample& sample) {
   }
   if (!accept_stamp(sample.time)) return;
   if (!frame_) {
-    const double home_height_m = sample.height_msl_m - sample.height_above_home_m;
-    frame_.emplace(sample.position, std::isfinite(home_height_m) ? home_height_m : 0.0);
+    if (sample.height_msl_m && std::isfinite(*sample.height_msl_m))
+      home_height_msl_m_ = *sample.height_msl_m - sample.height_above_home_m;
+    frame_.emplace(sample.position, home_height_msl_m_.value_or(0.0));
   }
   const LocalPoint local = frame_->to_local(sample.position);
   if (!(local.position_in_enu.norm() < kFrameReach_m)) {

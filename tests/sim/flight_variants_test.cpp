@@ -114,7 +114,7 @@ TEST(FlightVariants, RaisingMovesTruthAndTelemetryTogetherAndKeepsTheSurvey) {
   ASSERT_EQ(heard.positions.size(), before.positions.size());
   EXPECT_NEAR(heard.positions[900].height_above_home_m - before.positions[900].height_above_home_m, 100.0,
               1e-6);
-  EXPECT_NEAR(heard.positions[900].height_msl_m - before.positions[900].height_msl_m, 100.0, 1e-6);
+  EXPECT_NEAR(*heard.positions[900].height_msl_m - *before.positions[900].height_msl_m, 100.0, 1e-6);
   EXPECT_LT((position_error_m(flight, heard) - position_error_m(recorded, before)).cwiseAbs().maxCoeff(),
             1e-6);
   EXPECT_EQ(flight.truth.survey().begin, recorded.truth.survey().begin);
