@@ -37,8 +37,8 @@ class DriftTimeline {
  public:
   explicit DriftTimeline(const DriftConfig& config);
 
-  /// Nodes around `time`, made if need be. sigma_position_m: of the wandering, an axis, as believed now.
-  /// Times run forward; where one runs back (the vehicle rebooted) the drift begins anew.
+  /// Nodes around `time`, made if need be. sigma_position_m: 1-sigma per axis of the wandering, as believed
+  /// now. Times run forward; where one runs back (the vehicle rebooted) the drift begins anew.
   NodeSpan cover(VehicleTime time, double sigma_position_m);
 
   std::uint32_t begin() const { return begin_; }

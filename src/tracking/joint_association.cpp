@@ -10,7 +10,7 @@
 namespace geoloc {
 namespace {
 
-/// Of a look that shows no known track, in the units of a squared distance plus the logarithm of its
+/// Cost of a look that shows no known track, in the units of a squared distance plus the logarithm of its
 /// covariance's determinant: -2 ln(2 pi density), where objects not known yet stand one to 100 m^2.
 constexpr double kCostAlone = 5.53;
 /// Explanations tried of one frame.
@@ -22,8 +22,8 @@ constexpr int kRounds = 2;
 /// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.
 constexpr std::size_t kPairingsPerLook = 16;
 
-/// Of a pair's residual, where the shared error has that covariance. lazyProduct: Eigen takes matrices of
-/// this size for large ones, and packs them first.
+/// Covariance of a pair's residual, where the shared error has that covariance. lazyProduct: Eigen takes
+/// matrices of this size for large ones, and packs them first.
 Eigen::Matrix2d residual_covariance(const Pairing& pairing, const SharedError::Matrix& covariance) {
   const SharedError::Row product = pairing.jacobian.lazyProduct(covariance);
   return pairing.own_covariance + product.lazyProduct(pairing.jacobian.transpose());

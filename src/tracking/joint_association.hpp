@@ -48,7 +48,7 @@ class JointAssociation {
   /// A pair that may belong together; those beyond the gate by themselves are dropped.
   void add(const Pairing& pairing);
 
-  /// One match a look. Where no look has a choice, each goes to its track, which is a good deal faster.
+  /// One match per look. Where no look has a choice, each goes to its track, which is a good deal faster.
   const std::vector<Match>& solve();
 
   /// The same, but looks must agree also where none has a choice.

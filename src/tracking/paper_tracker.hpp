@@ -18,7 +18,7 @@
 namespace geoloc {
 
 /// Spatial refinement as published (paper, section 4): optimal assignment on Mahalanobis distances, one
-/// Kalman filter an object, penalties for objects that should be visible and are not, merging of confirmed
+/// Kalman filter per object, penalties for objects that should be visible and are not, merging of confirmed
 /// neighbours. Where a detection states a sigma, what that makes on the ground is added to R.
 class PaperTracker final : public Tracker {
  public:

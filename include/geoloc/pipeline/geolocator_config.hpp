@@ -16,7 +16,7 @@ namespace geoloc {
 
 /// How objects are estimated from the fixes.
 enum class Method {
-  kPaper,  ///< one Kalman filter an object, every error taken as noise (PaperTracker)
+  kPaper,  ///< one Kalman filter per object, every error taken as noise (PaperTracker)
   kJoint   ///< objects, the camera's calibration and the vehicle's drift together (JointTracker)
 };
 
