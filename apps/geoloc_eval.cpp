@@ -11,7 +11,7 @@
 #include "eval/experiment.hpp"
 #include "eval/report_folder.hpp"
 #include "eval/sweep.hpp"
-#include "geoloc/sim/flight.hpp"
+#include "geoloc/sim/flight/flight.hpp"
 
 namespace {
 

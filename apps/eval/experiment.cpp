@@ -10,8 +10,8 @@
 #include "eval/parallel.hpp"
 #include "eval/survey.hpp"
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/sim/flight.hpp"
-#include "geoloc/sim/scenario.hpp"
+#include "geoloc/sim/flight/flight.hpp"
+#include "geoloc/sim/flight/scenario.hpp"
 
 namespace geoloc::apps {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "eval/parallel.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
-#include "geoloc/sim/flight_camera.hpp"
-#include "geoloc/sim/scenario.hpp"
+#include "geoloc/sim/flight/scenario.hpp"
+#include "geoloc/sim/live/flight_camera.hpp"
 
 namespace geoloc::apps {
 namespace {

@@ -8,10 +8,10 @@
 #include <stdexcept>
 
 #include "eval/parallel.hpp"
-#include "geoloc/sim/flight_variants.hpp"
+#include "geoloc/sim/flight/random_stream.hpp"
+#include "geoloc/sim/flight/scenario.hpp"
+#include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/sim/random.hpp"
-#include "geoloc/sim/random_stream.hpp"
-#include "geoloc/sim/scenario.hpp"
 
 namespace geoloc::apps {
 namespace {

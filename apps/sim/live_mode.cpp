@@ -11,9 +11,9 @@
 #include "app/stop_signal.hpp"
 #include "geoloc/io/atomic_file.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
-#include "geoloc/sim/flight_camera.hpp"
-#include "geoloc/sim/rtsp_camera.hpp"
-#include "geoloc/sim/udp_vehicle.hpp"
+#include "geoloc/sim/live/flight_camera.hpp"
+#include "geoloc/sim/live/udp_vehicle.hpp"
+#include "geoloc/sim/rtsp/rtsp_camera.hpp"
 
 namespace geoloc::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "geoloc/sim/link_faults.hpp"
+#include "geoloc/sim/live/link_faults.hpp"
 #include "run_options.hpp"
 
 namespace geoloc::sim {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "geoloc/geometry/problems.hpp"
-#include "geoloc/sim/recording_generator.hpp"
+#include "geoloc/sim/flight/recording_generator.hpp"
 
 namespace geoloc::sim {
 

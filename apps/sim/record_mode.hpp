@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "geoloc/sim/simulated_detector.hpp"
+#include "geoloc/sim/flight/simulated_detector.hpp"
 #include "run_options.hpp"
 
 namespace geoloc::sim {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
-#include "geoloc/sim/flight_variants.hpp"
+#include "geoloc/sim/live/flight_variants.hpp"
 
 namespace geoloc::sim {
 
