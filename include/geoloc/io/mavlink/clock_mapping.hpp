@@ -8,7 +8,7 @@
 
 #include "geoloc/geometry/time.hpp"
 
-namespace geoloc {
+namespace geoloc::io {
 
 /// Offset of the vehicle's clock (vehicle - host) from one-way traffic: a stamp arrives late, never early, so
 /// the largest stamp - arrival of the last 15 s lies below the true offset by the link's smallest delay, and
@@ -115,4 +115,4 @@ class VehicleClockMap {
   Counts counts_;
 };
 
-}  // namespace geoloc
+}  // namespace geoloc::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/state/clock_mapping.hpp"
+#include "geoloc/io/mavlink/clock_mapping.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-namespace geoloc {
+namespace geoloc::io {
 namespace {
 
 using namespace std::chrono_literals;
@@ -241,4 +241,4 @@ INSTANTIATE_TEST_SUITE_P(VehicleClockMap, StepsOfTheHostClock,
                          ::testing::Values(Duration{10s}, Duration{-10s}, Duration{1h}, Duration{-1h}));
 
 }  // namespace
-}  // namespace geoloc
+}  // namespace geoloc::io

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/state/clock_mapping.hpp"
+#include "geoloc/io/mavlink/clock_mapping.hpp"
 
 #include <algorithm>
 
-namespace geoloc {
+namespace geoloc::io {
 namespace {
 
 constexpr Duration kLongestRoundTrip = std::chrono::seconds{1};
@@ -154,4 +154,4 @@ void VehicleClockMap::restart() {
   counts_ = counts;
 }
 
-}  // namespace geoloc
+}  // namespace geoloc::io
