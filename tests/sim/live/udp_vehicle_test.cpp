@@ -36,7 +36,7 @@ TEST(UdpVehicle, GivesGeolocsOwnReceiverWhatItAsksForOverARealSocket) {
   io::VehicleLink link{io::MavlinkConfig{}};
   Counter counter;
   while (counter.attitudes < 5 || counter.positions < 5 ||
-         link.clock().source() != VehicleClockMap::Source::kRoundTrip) {
+         link.clock().source() != io::VehicleClockMap::Source::kRoundTrip) {
     if (const auto datagram = socket.receive(std::chrono::milliseconds{20})) {
       if (link.consume(host_clock.now(), datagram->data, datagram->size, counter))
         socket.answer(datagram->sender);
