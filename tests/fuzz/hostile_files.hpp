@@ -101,7 +101,7 @@ inline void read_any_truth(const std::string& text) {
   }
 }
 
-/// --reference and --calibration.
+/// --known-points and --calibration.
 inline void read_any_priors(const std::string& text) {
   try {
     for (const KnownPoint& point : parse_known_points(text, "any")) require(point.problems().empty());
