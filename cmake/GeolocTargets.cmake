@@ -36,6 +36,7 @@ function(geoloc_add_library target)
   geoloc_set_flags(${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")  # headers that users need not read
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
@@ -44,6 +45,7 @@ function(geoloc_add_program target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
   add_executable(${target} ${arg_SOURCES})
   geoloc_set_flags(${target})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
   get_property(_libraries_elsewhere GLOBAL PROPERTY GEOLOC_INSTALL_RPATH)
   set_target_properties(${target} PROPERTIES
@@ -63,7 +65,7 @@ function(geoloc_add_test name)
   # It replaces operator new, which must not be seen where it is called.
   set_source_files_properties("${PROJECT_SOURCE_DIR}/tests/support/allocation_counter.cpp"
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests" "${PROJECT_SOURCE_DIR}/src")
   target_compile_definitions(${target} PRIVATE
     GEOLOC_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data" GEOLOC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)

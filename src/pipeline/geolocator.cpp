@@ -6,6 +6,8 @@
 #include <tuple>
 
 #include "geoloc/geometry/problems.hpp"
+#include "pipeline/geolocator_fields.hpp"
+#include "settings/field_checker.hpp"
 
 namespace geoloc {
 namespace {
@@ -44,16 +46,7 @@ bool canonical_order(const Detection& a, const Detection& b) {
 }  // namespace
 
 std::vector<std::string> GeolocatorConfig::problems() const {
-  Problems found;
-  found.require(max_detections >= 1 && max_detections <= 10000, "max_detections must lie in [1, 10000]");
-  found.require(edge_margin_px >= 0.0, "edge_margin_px must be >= 0");
-  found.add(camera.problems());
-  found.add(state.problems());
-  found.add(projector.problems());
-  found.add(paper.problems());
-  found.add(joint.problems());
-  for (const KnownPoint& point : known_points) found.add(point.problems());
-  return found.take();
+  return check_fields(*this);
 }
 
 Geolocator::Geolocator(const GeolocatorConfig& config)

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/geometry/problems.hpp"
+#include "settings/field_checker.hpp"
+#include "tracking/known_point_fields.hpp"
 
 namespace geoloc {
 namespace {
@@ -16,10 +17,7 @@ constexpr int kFramesToFind = 20;
 }  // namespace
 
 std::vector<std::string> KnownPoint::problems() const {
-  Problems found;
-  found.require(is_valid(position), "a known point has no valid coordinates");
-  found.require(sigma_m > 0.0 && sigma_m <= 100.0, "sigma_m of a known point must lie in (0, 100]");
-  return found.take();
+  return check_fields(*this);
 }
 
 KnownPoints::KnownPoints(std::vector<KnownPoint> points, int max_tracks)

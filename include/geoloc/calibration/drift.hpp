@@ -4,25 +4,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <string>
 #include <vector>
 
+#include "geoloc/calibration/drift_config.hpp"
 #include "geoloc/geometry/time.hpp"
 
 namespace geoloc {
-
-/// Errors of the vehicle's state that wander: position as the receiver's solution does, yaw as the compass'
-/// does. They are described at nodes a few seconds apart, straight lines between, with a first-order
-/// Gauss-Markov prior from node to node.
-struct DriftConfig {
-  double node_spacing_s = 5.0;
-  double position_time_constant_s = 30.0;
-  double yaw_time_constant_s = 60.0;
-  double sigma_yaw_deg = 0.7;  ///< of the wandering, 1-sigma
-  int max_nodes = 36;          ///< older ones are frozen at their estimates
-
-  std::vector<std::string> problems() const;
-};
 
 /// A node's state: east, north [m], yaw [rad, clockwise]; corrections to what the vehicle reports.
 inline constexpr int kNodeSize = 3;

@@ -22,7 +22,7 @@ enum class AttitudeInterpolation {
 
 struct StateConfig {
   AttitudeInterpolation attitude_interpolation = AttitudeInterpolation::kSlerp;
-  double max_gap_s = 0.6;              ///< a longer hole in the telemetry gives no state
+  double max_gap_s = 0.6;              ///< of the telemetry; a longer one gives no state
   double max_extrapolation_s = 0.005;  ///< beyond the newest sample; more is guessing
 
   std::vector<std::string> problems() const;
