@@ -18,7 +18,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add("--truth", options.truth_file, "True targets, GeoJSON: the run is scored at its end", "FILE");
   program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
   program.add_flag("--print-settings", options.print_settings,
-                   "Print what each setting means, as a table, and exit");
+                   "Print each setting's default, range, unit and meaning as a table, and exit");
   add_prior_options(program, options.priors);
   add_output_options(program, options.outputs);
 }

@@ -10,9 +10,10 @@ namespace geoloc::apps {
 
 void add_prior_options(CLI::App& program, PriorFiles& files) {
   program
-      .add_option("--reference", files.references,
+      .add_option("--known-points", files.known_points,
                   "Surveyed objects, GeoJSON: they take the receiver's offset out of all others")
       ->type_name("FILE");
+  program.add_option("--reference", files.known_points)->group("");  // its former name
   program
       .add_option("--calibration", files.calibration,
                   "The --out of an earlier flight of this camera: what it learnt is where this one begins")
@@ -20,11 +21,11 @@ void add_prior_options(CLI::App& program, PriorFiles& files) {
 }
 
 void apply_priors(const PriorFiles& files, GeolocatorConfig& config) {
-  if (!files.references.empty()) {
+  if (!files.known_points.empty()) {
     if (config.method != Method::kJoint)
       throw std::runtime_error(
-          "--reference: the paper's method has no use for known points; leave out one of the two");
-    config.known_points = io::read_known_points(files.references);
+          "--known-points: the paper's method has no use for known points; leave out one of the two");
+    config.known_points = io::read_known_points(files.known_points);
   }
   if (!files.calibration.empty())
     config.joint.prior =

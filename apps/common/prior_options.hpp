@@ -10,11 +10,11 @@ namespace geoloc::apps {
 
 /// What is known before a flight.
 struct PriorFiles {
-  std::string references;   ///< GeoJSON of surveyed objects
-  std::string calibration;  ///< what an earlier flight learnt of the camera
+  std::string known_points;  ///< GeoJSON of surveyed objects
+  std::string calibration;   ///< what an earlier flight learnt of the camera
 };
 
-/// --reference, --calibration.
+/// --known-points, --calibration.
 void add_prior_options(CLI::App& program, PriorFiles& files);
 
 /// Reads them over `config`. Throws std::runtime_error naming the file and the reason.

@@ -18,10 +18,10 @@ std::string unused_known_points(const Geolocator& geolocator) {
     if (entries[i].status == KnownPointStatus::kNotCovered)
       reason = "the camera did not look there long enough";
     if (entries[i].status == KnownPointStatus::kNoObject)
-      reason = "no object there agrees with it and with the other references: check its coordinates";
+      reason = "no object there agrees with it and with the other known points: check its coordinates";
     if (entries[i].status == KnownPointStatus::kAmbiguous) reason = "several objects may be the one";
     if (reason != nullptr)
-      lines += fmt::format("\nreference {} not used: {}", geolocator.config().known_points[i].name, reason);
+      lines += fmt::format("\nknown point {} not used: {}", geolocator.config().known_points[i].name, reason);
   }
   return lines;
 }

@@ -62,7 +62,7 @@ LeftOut objects_of_known_points(const Session& session, const Survey& survey) {
 
 int known_points_used(const Session& session) {
   const auto& entries = session.geolocator().known_points();
-  return static_cast<int>(std::count_if(entries.begin(), entries.end(), [](const KnownPointReport& entry) {
+  return static_cast<int>(std::count_if(entries.begin(), entries.end(), [](const KnownPointMatch& entry) {
     return entry.status == KnownPointStatus::kMatched;
   }));
 }

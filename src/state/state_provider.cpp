@@ -5,6 +5,8 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "settings/field_checker.hpp"
+#include "state/state_fields.hpp"
 
 namespace geoloc {
 namespace {
@@ -32,11 +34,7 @@ Eigen::Vector3d angular_velocity_in_body(const Bracket<EulerAngles>& bracket) {
 }  // namespace
 
 std::vector<std::string> StateConfig::problems() const {
-  Problems found;
-  found.require(max_gap_s > 0.0 && max_gap_s <= 60.0, "state.max_gap_s must lie in (0, 60]");
-  found.require(max_extrapolation_s >= 0.0 && max_extrapolation_s <= 0.1,
-                "state.max_extrapolation_s must lie in [0, 0.1]");
-  return found.take();
+  return check_fields(*this);
 }
 
 StateProvider::StateProvider(const StateConfig& config) : config_(config) {

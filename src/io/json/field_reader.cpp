@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/io/json/fields.hpp"
+#include "io/json/field_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -40,12 +41,27 @@ std::string FieldReader::suggestion(const std::string& key) const {
   return "--print-config shows them all";
 }
 
+void FieldReader::refuse_unknown() {
+  if (!object_.is_object()) return;
+  for (const auto& [key, ignored] : object_.items()) {
+    if (std::find(known_.begin(), known_.end(), key) == known_.end())
+      problems_.push_back(path_of(key) + " is not a setting; " + suggestion(key));
+  }
+}
+
+void FieldReader::refuse(const std::string& path, const std::string& demand, const nlohmann::json& value) {
+  constexpr std::size_t kShown = 60;  // a hostile value may be long
+  const std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  problems_.push_back(path + " " + demand + ", but is " + text.substr(0, kShown) +
+                      (text.size() > kShown ? "…" : ""));
+}
+
 void FieldReader::read(const nlohmann::json& json, const std::string& path, double& value) {
   // JSON has no NaN, but 1e999 parses to infinity.
   if (json.is_number() && std::isfinite(json.get<double>())) {
     value = json.get<double>();
   } else {
-    problems_.push_back(path + " must be a finite number");
+    refuse(path, "must be a finite number", json);
   }
 }
 
@@ -54,7 +70,7 @@ void FieldReader::read(const nlohmann::json& json, const std::string& path, int&
   if (json.is_number_integer() && std::abs(json.get<double>()) <= kLargest) {
     value = json.get<int>();
   } else {
-    problems_.push_back(path + " must be a whole number");
+    refuse(path, "must be a whole number", json);
   }
 }
 
@@ -62,7 +78,7 @@ void FieldReader::read(const nlohmann::json& json, const std::string& path, bool
   if (json.is_boolean()) {
     value = json.get<bool>();
   } else {
-    problems_.push_back(path + " must be true or false");
+    refuse(path, "must be true or false", json);
   }
 }
 
@@ -70,16 +86,13 @@ void FieldReader::read(const nlohmann::json& json, const std::string& path, std:
   if (json.is_string()) {
     value = json.get<std::string>();
   } else {
-    problems_.push_back(path + " must be a text");
+    refuse(path, "must be a text", json);
   }
 }
 
 void FieldReader::read(const nlohmann::json& json, const std::string& path,
                        std::map<std::string, std::string>& value) {
-  if (!json.is_object()) {
-    problems_.push_back(path + " must be an object of texts");
-    return;
-  }
+  if (!json.is_object()) return refuse(path, "must be an object of texts", json);
   value.clear();
   for (const auto& [key, entry] : json.items()) read(entry, path + "." + key, value[key]);
 }
