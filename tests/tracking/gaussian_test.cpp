@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/tracking/class_votes.hpp"
 
 namespace geoloc {
 namespace {
@@ -52,23 +51,6 @@ TEST(Density, IsTheProductOfItsAxesDensitiesAndIntegratesToOne) {
     for (int j = -300; j < 300; ++j) sum += step * step * density({step * i, step * j}, symmetric(4, 1.2, 1));
   }
   EXPECT_NEAR(sum, 1.0, 1e-6);
-}
-
-TEST(ClassVotes, MajorityWinsWhateverTheOrder) {
-  for (const int first : {0, 3}) {
-    ClassVotes votes;
-    for (int i = 0; i < 100; ++i) votes.add(i % 10 < 6 ? first : 10 + i % 7, 0.8);
-    EXPECT_EQ(votes.winner(), first);
-  }
-}
-
-TEST(ClassVotes, AreKeptThroughAMerge) {
-  ClassVotes a, b;
-  a.add(1, 2.0);
-  b.add(2, 1.5);
-  b.add(1, 0.1);
-  a.add(b);
-  EXPECT_EQ(a.winner(), 1);
 }
 
 }  // namespace

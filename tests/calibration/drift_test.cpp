@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/calibration/drift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <vector>
+
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc {
+namespace {
+
+constexpr double kSigmaPosition_m = 0.5;
+
+DriftConfig config_with(double spacing_s, int max_nodes = 36) {
+  DriftConfig config;
+  config.node_spacing_s = spacing_s;
+  config.max_nodes = max_nodes;
+  return config;
+}
+
+NodeSpan cover(DriftTimeline& drift, double time_s) {
+  return drift.cover(VehicleTime{from_seconds(time_s)}, kSigmaPosition_m);
+}
+
+double time_of(const DriftTimeline& drift, std::uint32_t number) {
+  return seconds(drift.node(number).time.time_since_epoch());
+}
+
+/// Covariance of all nodes' component `i` by the definition of the prior: each is transition times the one
+/// before and an independent rest of variance 1 / information.
+Eigen::MatrixXd prior_covariance_of(const DriftTimeline& drift, int i) {
+  const Eigen::Index size = drift.size();
+  Eigen::MatrixXd from_rests = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd variance(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const auto number = drift.begin() + static_cast<std::uint32_t>(k);
+    if (k > 0) from_rests.row(k) = drift.node(number).transition[i] * from_rests.row(k - 1);
+    from_rests(k, k) = 1.0;
+    variance[k] = 1.0 / drift.information(number)[i];
+  }
+  return from_rests * variance.asDiagonal() * from_rests.transpose();
+}
+
+/// A stationary first-order Gauss-Markov process: sigma^2 exp(-|t1 - t2| / time constant), at any spacing.
+TEST(DriftTimeline, WandersAsAStationaryGaussMarkovProcess) {
+  const DriftConfig config = config_with(4.0);
+  DriftTimeline drift(config);
+  for (const double time_s : {10.0, 13.0, 15.0, 21.0, 60.0, 63.0, 66.0}) cover(drift, time_s);
+  const double sigma_yaw = config.sigma_yaw_deg * kPi / 180.0;
+  for (int i = 0; i < kNodeSize; ++i) {
+    const double sigma = i < 2 ? kSigmaPosition_m : sigma_yaw;
+    const double constant_s = i < 2 ? config.position_time_constant_s : config.yaw_time_constant_s;
+    const Eigen::MatrixXd covariance = prior_covariance_of(drift, i);
+    for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
+      for (Eigen::Index b = 0; b < covariance.cols(); ++b) {
+        const double apart_s =
+            time_of(drift, static_cast<std::uint32_t>(a)) - time_of(drift, static_cast<std::uint32_t>(b));
+        EXPECT_NEAR(covariance(a, b), sigma * sigma * std::exp(-std::abs(apart_s) / constant_s),
+                    1e-12 * sigma * sigma);
+      }
+    }
+  }
+}
+
+TEST(DriftTimeline, ScalesTheWanderingOfThePositionAndNotOfTheYaw) {
+  DriftTimeline drift{DriftConfig{}}, scaled{DriftConfig{}};
+  EXPECT_EQ(drift.position_scale(), 1.0);
+  for (DriftTimeline* one : {&drift, &scaled}) {
+    cover(*one, 0.0);
+    cover(*one, 6.0);
+  }
+  scaled.set_position_scale(3.0);
+  EXPECT_EQ(scaled.position_scale(), 3.0);
+  for (int i = 0; i < kNodeSize; ++i) {
+    EXPECT_TRUE(
+        prior_covariance_of(scaled, i).isApprox((i < 2 ? 9.0 : 1.0) * prior_covariance_of(drift, i), 1e-12));
+  }
+}
+
+TEST(DriftTimeline, CoversEveryTimeByTheTwoNodesAroundIt) {
+  DriftTimeline drift(config_with(5.0));
+  for (const double time_s :
+       {100.0, 101.0, 104.99, 105.0, 105.01, 110.0, 110.5, 500.0, 503.0, 505.0, 505.5}) {
+    const NodeSpan span = cover(drift, time_s);
+    ASSERT_EQ(span.first + 2, drift.end());
+    EXPECT_GE(span.weight_of_second, 0.0);
+    EXPECT_LE(span.weight_of_second, 1.0);
+    const double mean_s = (1 - span.weight_of_second) * time_of(drift, span.first) +
+                          span.weight_of_second * time_of(drift, span.first + 1);
+    EXPECT_NEAR(mean_s, time_s, 1e-6);
+  }
+}
+
+TEST(DriftTimeline, HasNodesAtTheSpacingAndNoneForAPause) {
+  DriftTimeline drift(config_with(5.0));
+  std::vector<double> times;
+  for (const double time_s : {100.0, 103.0, 106.0, 500.0}) cover(drift, time_s);
+  for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)
+    times.push_back(time_of(drift, number));
+  EXPECT_EQ(times, (std::vector<double>{100.0, 105.0, 110.0, 500.0, 505.0}));
+}
+
+TEST(DriftTimeline, ATimeJustAfterTheLastNodeContinuesTheGrid) {
+  DriftTimeline drift(config_with(5.0));
+  cover(drift, 0.0);
+  cover(drift, 10.0);  // no longer after the last node than the spacing
+  EXPECT_EQ(drift.size(), 3);
+  EXPECT_EQ(time_of(drift, 2), 10.0);
+}
+
+TEST(DriftTimeline, ExpectsOfANewNodeWhatTheLastOneLeaves) {
+  DriftConfig config = config_with(5.0);
+  DriftTimeline drift(config);
+  cover(drift, 0.0);
+  drift.node(1).mean = NodeVector(2.0, -4.0, 0.1);
+  cover(drift, 6.0);
+  const double position = std::exp(-5.0 / config.position_time_constant_s);
+  const double yaw = std::exp(-5.0 / config.yaw_time_constant_s);
+  EXPECT_LT((drift.node(2).mean - NodeVector(2.0 * position, -4.0 * position, 0.1 * yaw)).norm(), 1e-12);
+  EXPECT_EQ(drift.node(2).prior_mean, NodeVector(NodeVector::Zero()));
+}
+
+TEST(DriftTimeline, BeginsAnewWhenTheClockRunsBack) {
+  DriftTimeline drift{DriftConfig{}};
+  cover(drift, 100.0);
+  drift.node(1).mean = NodeVector(1.0, 1.0, 1.0);
+  const NodeSpan span = cover(drift, 3.0);
+  EXPECT_EQ(drift.node(span.first).transition, NodeVector(NodeVector::Zero()));
+  EXPECT_EQ(drift.node(span.first).mean, NodeVector(NodeVector::Zero()));
+  EXPECT_NEAR(1.0 / drift.node(span.first).information.x(), kSigmaPosition_m * kSigmaPosition_m, 1e-12);
+  EXPECT_EQ(time_of(drift, span.first), 3.0);
+  EXPECT_EQ(drift.size(), 4);
+}
+
+/// The node after a frozen one has the distribution of the process given the frozen value.
+TEST(DriftTimeline, GoesOnFromTheValueThatANodeIsFrozenAt) {
+  const DriftConfig config = config_with(5.0);
+  DriftTimeline drift(config);
+  cover(drift, 0.0);
+  cover(drift, 6.0);
+  const NodeVector frozen(0.7, -0.2, 0.01);
+  drift.node(0).mean = frozen;
+  drift.freeze_oldest();
+  EXPECT_EQ(drift.begin(), 1U);
+  EXPECT_EQ(drift.size(), 2);
+  const double position = std::exp(-5.0 / config.position_time_constant_s);
+  const double yaw = std::exp(-5.0 / config.yaw_time_constant_s);
+  EXPECT_LT((drift.node(1).prior_mean - NodeVector(position, position, yaw).cwiseProduct(frozen)).norm(),
+            1e-12);
+  EXPECT_NEAR(1.0 / drift.information(1).x(),
+              kSigmaPosition_m * kSigmaPosition_m * (1.0 - position * position), 1e-12);
+  const Eigen::MatrixXd covariance = prior_covariance_of(drift, 0);
+  EXPECT_NEAR(covariance(0, 0), kSigmaPosition_m * kSigmaPosition_m * (1.0 - position * position), 1e-12);
+}
+
+TEST(DriftTimeline, KeepsAsManyNodesAsItMayWhateverTheirNumbers) {
+  for (const int most : {4, 5, 6, 7, 14, 15}) {
+    DriftTimeline drift(config_with(1.0, most));
+    for (int i = 0; i < 100; ++i) {
+      const NodeSpan span = cover(drift, 0.9 * i);
+      drift.node(span.first + 1).mean = NodeVector::Constant(span.first + 1.0);
+      while (drift.size() > most) drift.freeze_oldest();
+      ASSERT_EQ(drift.is_full(), drift.size() >= most);
+      for (std::uint32_t number = std::max(1U, drift.begin()); number != drift.end(); ++number)
+        ASSERT_EQ(drift.node(number).mean.x(), number) << most;
+    }
+    EXPECT_EQ(drift.size(), most);
+  }
+}
+
+}  // namespace
+}  // namespace geoloc

@@ -1,0 +1,491 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the joint method promises of objects that stand still, seen from outside.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/pipeline/geolocator.hpp"
+#include "support/nadir_flight.hpp"
+
+namespace geoloc {
+namespace {
+
+using testing::box_at;
+using testing::geodetic_of;
+using testing::hovering_at;
+using testing::kFocal_px;
+using testing::log_odds;
+using testing::NadirFlight;
+using testing::northwards;
+using testing::Pose;
+
+constexpr double kHeight_m = 20.0;
+const Eigen::Vector2d kPlace{2.0, 1.0};
+
+/// Odds of 3 to 7 at birth.
+const double kLogOddsAtBirth = std::log(0.3 / 0.7);
+/// What one look can say for an object, at most.
+constexpr double kMostOfALook = 6.0;
+
+NadirFlight hovering(const GeolocatorConfig& config = {}) {
+  return {config, hovering_at({0.0, 0.0, kHeight_m})};
+}
+
+const Track& only_track(const NadirFlight& flight) {
+  EXPECT_EQ(flight.tracks().size(), 1U);
+  return flight.tracks().front();
+}
+
+// --- Life cycle: Bayes' rule by hand.
+
+TEST(JointLifeCycle, AnObjectSeenThriceIsConfirmed) {
+  NadirFlight flight = hovering();
+  for (int look = 0; look < 3; ++look) {
+    flight.see(0.5 + 0.5 * look, {kPlace});
+    const Track& track = only_track(flight);
+    EXPECT_NEAR(log_odds(track), kLogOddsAtBirth + kMostOfALook * look, 1e-9);
+    EXPECT_EQ(track.status == TrackStatus::kConfirmed, *track.existence >= 0.999);
+    EXPECT_EQ(track.hits, look + 1);
+  }
+  EXPECT_EQ(only_track(flight).status, TrackStatus::kConfirmed);
+  EXPECT_LT((only_track(flight).position_in_enu.mean - kPlace).norm(), 1e-4);
+  EXPECT_EQ(only_track(flight).first_seen, testing::host_at_s(0.5));
+  EXPECT_EQ(only_track(flight).last_seen, testing::host_at_s(1.5));
+}
+
+TEST(JointLifeCycle, AMissCountsAgainstAnObjectUntilItIsDeleted) {
+  NadirFlight flight = hovering();
+  flight.see(0.5, {kPlace});
+  EXPECT_EQ(only_track(flight).penalty, 0);
+  flight.see(1.0, {});
+  EXPECT_NEAR(log_odds(only_track(flight)), kLogOddsAtBirth + std::log(1.0 - 0.9), 1e-9);
+  EXPECT_EQ(only_track(flight).penalty, 1);
+  flight.see(1.5, {});  // odds of 0.0043: less than one to a hundred
+  EXPECT_TRUE(flight.tracks().empty());
+  EXPECT_EQ(flight.geolocator().track_counters().removed, 1U);
+  flight.see(2.0, {kPlace});
+  EXPECT_EQ(only_track(flight).id, 2U);  // never used again
+}
+
+TEST(JointLifeCycle, ALookMakesGoodForAMiss) {
+  NadirFlight flight = hovering();
+  flight.see(0.5, {kPlace});
+  flight.see(1.0, {});
+  flight.see(1.5, {kPlace});
+  EXPECT_EQ(only_track(flight).penalty, 0);
+  EXPECT_NEAR(log_odds(only_track(flight)), kLogOddsAtBirth + std::log(0.1) + kMostOfALook, 1e-9);
+}
+
+TEST(JointLifeCycle, WhatIsOutOfTheImageIsNotMissed) {
+  NadirFlight flight({}, northwards(20.0));
+  const Eigen::Vector2d place(0.0, 10.0);
+  flight.see(0.5, {place});
+  for (double time_s = 1.5; time_s < 6.0; time_s += 0.5) flight.see(time_s, {});
+  EXPECT_NEAR(log_odds(only_track(flight)), kLogOddsAtBirth, 1e-9);
+  EXPECT_EQ(only_track(flight).penalty, 0);
+}
+
+TEST(JointLifeCycle, WhatIsTooSmallToBeFoundIsNotMissed) {
+  NadirFlight flight = hovering();
+  flight.see(0.5, {kPlace}, 6.0);
+  flight.see(1.0, {});
+  EXPECT_NEAR(log_odds(only_track(flight)), kLogOddsAtBirth, 1e-9);
+  NadirFlight larger = hovering();
+  larger.see(0.5, {kPlace}, 9.0);  // half visible
+  larger.see(1.0, {});
+  EXPECT_NEAR(log_odds(only_track(larger)), kLogOddsAtBirth + std::log(1.0 - 0.5 * 0.9), 1e-6);
+}
+
+/// The detection probability is the share of frames that found a confirmed object, where 18 of 20 stand for
+/// what was assumed.
+TEST(JointLifeCycle, WhatAMissSaysFollowsHowOftenConfirmedObjectsAreFound) {
+  NadirFlight flight = hovering();
+  double time_s = 0.5;
+  const auto look = [&](bool is_found) {
+    flight.see(time_s, is_found ? std::vector<Eigen::Vector2d>{kPlace} : std::vector<Eigen::Vector2d>{});
+    time_s += 0.5;
+  };
+  for (int frame = 0; frame < 3 + 10; ++frame) look(true);            // confirmed by the third
+  double found = 18.0 + 10.0, frames = 20.0 + 10.0, expected = 16.0;  // the most that is believed
+  for (int miss = 0; miss < 4; ++miss) {
+    look(false);
+    expected += std::log(1.0 - found / frames);
+    frames += 1.0;
+    EXPECT_NEAR(log_odds(only_track(flight)), expected, 1e-5);
+    EXPECT_EQ(only_track(flight).penalty, miss + 1);
+  }
+  while (!flight.tracks().empty()) {
+    look(false);
+    expected += std::log(1.0 - found / frames);
+    frames += 1.0;
+    ASSERT_EQ(flight.tracks().empty(), expected < std::log(0.01 / 0.99)) << expected;
+  }
+}
+
+TEST(JointLifeCycle, ALookIsWeighedAgainstClutter) {
+  GeolocatorConfig config;
+  config.joint.clutter_per_frame = 500.0;
+  config.joint.fast_share = 0.0;
+  config.joint.sigma_attitude_deg = 1e-3;
+  NadirFlight flight = hovering(config);
+  for (double time_s : {0.5, 1.0}) flight.see(time_s, {kPlace});
+  // Two looks with the detector's noise each, at the same place: the density of their difference at 0.
+  const double ground_per_pixel_m = kHeight_m / kFocal_px;
+  const double variance = 2.0 * std::pow(1.5 * ground_per_pixel_m, 2);
+  const double density = 1.0 / (2.0 * kPi * variance);
+  const double clutter = 500.0 / (1280.0 * 720.0 * ground_per_pixel_m * ground_per_pixel_m);
+  EXPECT_NEAR(log_odds(only_track(flight)), kLogOddsAtBirth + std::log(0.9 * density / clutter), 0.05);
+}
+
+TEST(JointLifeCycle, ThereAreNeverMoreTracksThanMayBe) {
+  GeolocatorConfig config;
+  config.joint.max_tracks = 2;
+  NadirFlight flight = hovering(config);
+  flight.see(0.5, {{-3.0, 0.0}, {0.0, 0.0}, {3.0, 0.0}, {6.0, 0.0}});
+  EXPECT_EQ(flight.tracks().size(), 2U);
+  EXPECT_EQ(flight.geolocator().track_counters().refused, 2U);
+  EXPECT_EQ(flight.geolocator().track_counters().created, 2U);
+}
+
+/// The vehicle's position jumps by more than the gate lets pass, less than two objects could be apart: what
+/// is seen beside a confirmed object is a new track at first, and may be the same object.
+TEST(JointLifeCycle, AConfirmedObjectIsNotMissedWhileAYoungTrackMayBeTheSame) {
+  NadirFlight flight = hovering();
+  double time_s = 0.5;
+  for (; time_s < 20.0; time_s += 0.5) flight.see(time_s, {kPlace});
+  const std::vector<Eigen::Vector2d> moved{kPlace + Eigen::Vector2d(1.3, 0.0)};
+  flight.see(time_s, moved);
+  ASSERT_EQ(flight.tracks().size(), 2U);
+  const Track once = flight.tracks()[0];
+  EXPECT_EQ(once.penalty, 1);  // the young track was not there yet
+  flight.see(time_s + 0.5, moved);
+  ASSERT_EQ(flight.tracks().size(), 2U);
+  EXPECT_EQ(flight.tracks()[0].penalty, 1);
+  EXPECT_EQ(flight.tracks()[0].existence, once.existence);
+  EXPECT_EQ(flight.tracks()[1].hits, 2);
+}
+
+// --- Which look shows which object.
+
+/// A second look, two seconds after the first: what is new of its noise is 1 - exp(-2) of attitude and
+/// position, in look and track alike, beside the detector's.
+double sigma_of_a_second_look_m() {
+  const JointTrackerConfig joint;
+  const double pixel = std::pow(joint.sigma_px * kHeight_m / kFocal_px, 2);
+  const double attitude = std::pow(joint.sigma_attitude_deg * kPi / 180.0 * kHeight_m, 2);
+  const double position = std::pow(joint.fast_share * joint.horizontal_accuracy_m, 2) / 2.0;
+  return std::sqrt(2.0 * pixel + 2.0 * (1.0 - std::exp(-2.0)) * (attitude + position));
+}
+
+TEST(JointAssociationReach, EndsAtTheGate) {
+  const double gate_m = std::sqrt(JointTrackerConfig{}.gate) * sigma_of_a_second_look_m();
+  for (const Eigen::Vector2d& direction :
+       {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(-0.6, 0.8)}) {
+    for (const double share : {0.2, 0.6, 0.93, 1.1, 1.5}) {
+      NadirFlight flight = hovering();
+      flight.see(0.5, {{0.0, 0.0}});
+      flight.see(2.5, {share * gate_m * direction});
+      EXPECT_EQ(flight.tracks().size(), share < 1.0 ? 1U : 2U) << share;
+    }
+  }
+}
+
+TEST(JointAssociationReach, OfADetectorThatKnowsLessIsFarther) {
+  NadirFlight flight = hovering();
+  flight.see(0.5, {{0.0, 0.0}});
+  Detection vague = box_at(*flight.shown(2.5, {1.2, 0.0}));
+  vague.sigma_px = 25.0;
+  flight.process(2.5, {vague});
+  EXPECT_EQ(flight.tracks().size(), 1U);
+}
+
+TEST(JointAssociationClasses, ALookOfAnotherClassIsFartherByTheCostOfAMismatch) {
+  const double sigma_m = sigma_of_a_second_look_m();
+  const auto tracks_after = [&](double squared_distance, int class_id, double cost) {
+    GeolocatorConfig config;
+    config.joint.class_mismatch_cost = cost;
+    NadirFlight flight = hovering(config);
+    flight.see(0.5, {{0.0, 0.0}}, 36.0, 3);
+    flight.see(2.5, {{std::sqrt(squared_distance) * sigma_m, 0.0}}, 36.0, class_id);
+    return flight.tracks().size();
+  };
+  EXPECT_EQ(tracks_after(9.5, 3, 4.0), 1U);
+  EXPECT_EQ(tracks_after(9.5, 5, 4.0), 2U);
+  EXPECT_EQ(tracks_after(6.5, 5, 4.0), 1U);
+  EXPECT_EQ(tracks_after(0.0, 5, 4.0), 1U);
+  EXPECT_EQ(tracks_after(0.0, 5, 12.0), 2U);
+  EXPECT_EQ(tracks_after(9.5, 5, 0.0), 1U);
+}
+
+/// Two boxes of one class nearer than 0.3 of their size are one object.
+TEST(JointDuplicates, AreNotTwoObjects) {
+  const auto seen = [](double apart_px, double size_px, double other_size_px, int other_class) {
+    NadirFlight flight = hovering();
+    const Eigen::Vector2d pixel = *flight.shown(0.5, kPlace);
+    flight.process(0.5, {box_at(pixel, size_px),
+                         box_at(pixel + Eigen::Vector2d(0.6, 0.8) * apart_px, other_size_px, other_class)});
+    return flight.tracks().size();
+  };
+  EXPECT_EQ(seen(0.28 * 40.0, 40.0, 40.0, 0), 1U);
+  EXPECT_EQ(seen(0.32 * 40.0, 40.0, 40.0, 0), 2U);
+  EXPECT_EQ(seen(0.28 * 40.0, 40.0, 40.0, 1), 2U);
+  EXPECT_EQ(seen(0.28 * 40.0, 40.0, 30.0, 0), 2U);  // the smaller one counts
+  EXPECT_EQ(seen(0.28 * 40.0, 30.0, 40.0, 0), 2U);
+}
+
+TEST(JointDuplicates, TheMoreConfidentBoxStands) {
+  NadirFlight flight = hovering();
+  const Eigen::Vector2d pixel = *flight.shown(0.5, kPlace);
+  Detection worse = box_at(pixel + Eigen::Vector2d(5.0, 0.0));
+  worse.confidence = 0.5;
+  flight.process(0.5, {worse, box_at(pixel)});
+  EXPECT_LT((only_track(flight).position_in_enu.mean - kPlace).norm(), 1e-4);
+  EXPECT_EQ(only_track(flight).hits, 1);
+}
+
+// --- Objects begun twice.
+
+/// Looks of two classes by turns, that must not match: two tracks of one object until they are compared.
+TEST(JointMerging, TwoTracksOfOneObjectBecomeOne) {
+  GeolocatorConfig config;
+  config.joint.class_mismatch_cost = 1000.0;
+  NadirFlight flight = hovering(config);
+  for (int frame = 0; frame < 5; ++frame) {
+    flight.see(0.5 + 0.1 * frame, {kPlace}, 36.0, frame % 2);
+    EXPECT_EQ(flight.tracks().size(), frame == 0 ? 1U : 2U) << frame;
+  }
+  flight.see(1.0, {kPlace}, 36.0, 1);
+  EXPECT_EQ(only_track(flight).id, 1U);
+  EXPECT_EQ(only_track(flight).hits, 6);
+  EXPECT_EQ(flight.geolocator().track_counters().merged, 1U);
+}
+
+TEST(JointMerging, TwoTracksFartherApartThanTheRadiusStayTwo) {
+  GeolocatorConfig config;
+  config.joint.class_mismatch_cost = 1000.0;
+  config.joint.merge_radius_m = 0.1;
+  NadirFlight flight = hovering(config);
+  for (int frame = 0; frame < 30; ++frame)
+    flight.see(0.5 + 0.1 * frame, {kPlace + Eigen::Vector2d(0.15 * (frame % 2), 0.0)}, 36.0, frame % 2);
+  EXPECT_EQ(flight.tracks().size(), 2U);
+}
+
+TEST(JointMerging, TwoTracksSeenSideBySideStayTwo) {
+  GeolocatorConfig config;
+  config.joint.class_mismatch_cost = 1000.0;
+  NadirFlight flight = hovering(config);
+  for (int frame = 0; frame < 30; ++frame) {
+    const Eigen::Vector2d pixel = *flight.shown(0.5 + 0.1 * frame, kPlace);
+    flight.process(0.5 + 0.1 * frame,
+                   {box_at(pixel, 36.0, 0), box_at(pixel + Eigen::Vector2d(1, 0), 36.0, 1)});
+  }
+  EXPECT_EQ(flight.tracks().size(), 2U);
+}
+
+// --- Errors that all looks share.
+
+std::vector<Eigen::Vector2d> grid(double north_from_m, double north_to_m, double step_m) {
+  std::vector<Eigen::Vector2d> places;
+  for (double north = north_from_m; north <= north_to_m; north += step_m) {
+    for (const double east : {-8.0, 0.0, 7.0}) places.emplace_back(east, north);
+  }
+  return places;
+}
+
+TEST(JointCalibration, OfTheCameraBeginsAsThePriorAndTheAutopilotsOwnErrors) {
+  GeolocatorConfig config;
+  CalibrationPrior& prior = config.joint.prior;
+  prior.boresight_x_deg = 0.3;
+  prior.boresight_y_deg = -0.2;
+  prior.boresight_z_deg = 1.0;
+  prior.latency_s = 0.12;
+  prior.height_m = 0.5;
+  prior.sigma_boresight_x_deg = 1.0;
+  prior.sigma_boresight_y_deg = 2.0;
+  prior.sigma_boresight_z_deg = 3.0;
+  prior.sigma_latency_s = 0.04;
+  prior.sigma_height_m = 0.7;
+  config.joint.sigma_attitude_bias_deg = 0.9;
+  config.joint.sigma_state_lag_s = 0.03;
+  const Calibration calibration = *Geolocator(config).calibration();
+  constexpr double kDegree = kPi / 180.0;
+  CalibrationVector mean, sigma;
+  const double offset = std::sqrt(0.5 * config.joint.constant_share) * config.joint.horizontal_accuracy_m;
+  mean << 0.3 * kDegree, -0.2 * kDegree, 1.0 * kDegree, 0.12, 0.5, 0.0, 0.0;
+  sigma << std::hypot(1.0, 0.9) * kDegree, std::hypot(2.0, 0.9) * kDegree, std::hypot(3.0, 0.9) * kDegree,
+      std::hypot(0.04, 0.03), 0.7, offset, offset;
+  EXPECT_LT((calibration.mean - mean).norm(), 1e-12);
+  for (int i = 0; i < CalibrationIndex::kSize; ++i) EXPECT_NEAR(calibration.sigma(i), sigma[i], 1e-12) << i;
+}
+
+TEST(JointCalibration, FramesAreLocatedWithWhatIsKnownOfTheErrors) {
+  GeolocatorConfig config;
+  config.joint.prior.latency_s = 0.2;
+  config.joint.prior.height_m = 1.0;
+  config.joint.prior.boresight_z_deg = 2.0;
+  NadirFlight flight(config, northwards(5.0));
+  flight.process(3.0, {box_at({kFocal_px + 639.5, 359.5})});  // one height to the right: 45 degrees
+  EXPECT_EQ(flight.geolocator().view().vehicle.time, testing::at_s(2.8));
+  ASSERT_TRUE(flight.geolocator().located().empty());  // outside of the image
+  flight.process(3.2, {box_at({0.5 * kFocal_px + 639.5, 359.5})});
+  ASSERT_EQ(flight.geolocator().located().size(), 1U);
+  const double turn = 2.0 * kPi / 180.0;
+  const Eigen::Vector2d expected(0.5 * 21.0 * std::cos(turn), 15.0 - 0.5 * 21.0 * std::sin(turn));
+  EXPECT_LT((flight.geolocator().located()[0].fix.position_in_enu - expected).norm(), 1e-3);
+}
+
+/// Of the boresight about the camera's right axis after ten seconds above objects in a circle around the
+/// vehicle, which turns on the spot: that tells the boresight from all that stays when the vehicle turns.
+double sigma_of_boresight_rad(int objects, double period_s) {
+  GeolocatorConfig config;
+  config.joint.sigma_attitude_deg = 1.0;  // so that all else is small beside it
+  config.joint.sigma_px = 0.1;
+  config.joint.sigma_time_s = 0.0;
+  config.joint.fast_share = 0.0;
+  NadirFlight flight(config, [](double time_s) {
+    return Pose{{0.0, 0.0, kHeight_m}, 0.0, 0.0, 0.5 * time_s};
+  });
+  std::vector<Eigen::Vector2d> places;
+  for (int i = 0; i < objects; ++i) {
+    const double direction = 2.0 * kPi * i / objects;
+    places.emplace_back(5.0 * std::cos(direction), 5.0 * std::sin(direction));
+  }
+  for (double time_s = 1.0; time_s < 11.0; time_s += period_s) flight.see(time_s, places);
+  return flight.geolocator().calibration()->sigma(CalibrationIndex::kBoresight);
+}
+
+/// All looks of a frame share its attitude: the boresight is known no better for seeing many objects.
+TEST(JointCalibration, ManyObjectsInAFrameAreNotAsManyWitnessesOfItsAttitude) {
+  const double prior = JointTrackerConfig{}.prior.sigma_boresight_x_deg * kPi / 180.0;
+  const double few = sigma_of_boresight_rad(4, 0.2), many = sigma_of_boresight_rad(16, 0.2);
+  EXPECT_LT(few, 0.5 * prior);
+  EXPECT_NEAR(many / few, 1.0, 0.1);
+}
+
+/// Frames within the attitude's time constant share its noise: four times as many say no more.
+TEST(JointCalibration, ManyFramesASecondAreNotAsManyWitnessesEither) {
+  EXPECT_NEAR(sigma_of_boresight_rad(6, 0.05) / sigma_of_boresight_rad(6, 0.2), 1.0, 0.1);
+}
+
+/// The vehicle is not where it reports to be, by a process of known strength; back and forth over objects.
+double learnt_strength(double strength, unsigned seed) {
+  const JointTrackerConfig joint;
+  const double prior_m = std::sqrt(0.5 * (1.0 - joint.constant_share)) * joint.horizontal_accuracy_m;
+  const double sigma_m = strength * prior_m, step_s = 0.1;
+  const double kept = std::exp(-step_s / joint.drift.position_time_constant_s);
+  std::mt19937 random(seed);
+  std::normal_distribution<double> normal;
+  std::vector<Eigen::Vector2d> wandered{sigma_m * Eigen::Vector2d(normal(random), normal(random))};
+  for (int i = 0; i < 2000; ++i)
+    wandered.emplace_back(kept * wandered.back() + sigma_m * std::sqrt(1.0 - kept * kept) *
+                                                       Eigen::Vector2d(normal(random), normal(random)));
+  const testing::Path reported = [](double time_s) {
+    const double turned = std::fmod(time_s, 20.0);
+    return Pose{{0.0, 3.0 * (turned < 10.0 ? turned : 20.0 - turned), kHeight_m}, 0.0, 0.0, 0.0};
+  };
+  const testing::Path truth = [&](double time_s) {
+    Pose pose = reported(time_s);
+    pose.position.head<2>() += wandered[static_cast<std::size_t>(std::lround(time_s / step_s))];
+    return pose;
+  };
+  NadirFlight flight({}, reported, truth);
+  for (int i = 5; i < 1800; i += 4) flight.see(step_s * i, grid(0.0, 30.0, 10.0));
+  const double constant_m = std::sqrt(0.5 * joint.constant_share) * joint.horizontal_accuracy_m;
+  return flight.geolocator().calibration()->sigma(CalibrationIndex::kOffset) / constant_m;
+}
+
+TEST(JointCalibration, LearnsHowStronglyThePositionWanders) {
+  for (const double strength : {0.4, 1.0, 2.0})
+    EXPECT_NEAR(learnt_strength(strength, 3), strength, 0.3 * strength);
+}
+
+// --- Known points.
+
+/// The vehicle reports to be where it is not, always by the same.
+NadirFlight displaced(const GeolocatorConfig& config, const Eigen::Vector2d& offset) {
+  const testing::Path reported = northwards(2.0);
+  return {config, reported, [=](double time_s) {
+            Pose pose = reported(time_s);
+            pose.position.head<2>() += offset;
+            return pose;
+          }};
+}
+
+double farthest_from(const std::vector<Eigen::Vector2d>& places, const NadirFlight& flight) {
+  double farthest = 0.0;
+  for (const Track& track : flight.tracks()) {
+    double nearest = 1e9;
+    for (const Eigen::Vector2d& place : places)
+      nearest = std::min(nearest, (track.position_in_enu.mean - place).norm());
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
+
+TEST(JointKnownPoints, TakeTheConstantErrorOutOfAllObjects) {
+  const Eigen::Vector2d offset(0.4, -0.3);
+  const std::vector<Eigen::Vector2d> places = grid(0.0, 24.0, 8.0);
+  for (const bool is_known : {false, true}) {
+    GeolocatorConfig config;
+    KnownPoint point;
+    point.position = geodetic_of(places[4]);
+    if (is_known) config.known_points.push_back(point);
+    NadirFlight flight = displaced(config, offset);
+    for (double time_s = 1.0; time_s < 11.0; time_s += 0.1) flight.see(time_s, places);
+    ASSERT_EQ(flight.tracks().size(), places.size());
+    if (!is_known) {
+      EXPECT_NEAR(farthest_from(places, flight), offset.norm(), 0.02);
+      continue;
+    }
+    EXPECT_LT(farthest_from(places, flight), 0.05);
+    ASSERT_EQ(flight.geolocator().known_points().size(), 1U);
+    const KnownPoints::Entry& entry = flight.geolocator().known_points()[0];
+    EXPECT_EQ(entry.status, KnownPointStatus::kMatched);
+    EXPECT_LT((entry.position_in_enu - places[4]).norm(), 1e-3);
+    for (const Track& track : flight.tracks()) {
+      const double sigma_m = std::sqrt(0.5 * track.position_in_enu.covariance.trace());
+      if (track.id != entry.track_id) continue;
+      EXPECT_LT((track.position_in_enu.mean - places[4]).norm(), 0.01);
+      // As good as the survey, and hardly better: the looks know nothing of their common error.
+      EXPECT_LT(sigma_m, point.sigma_m);
+      EXPECT_GT(sigma_m, 0.8 * point.sigma_m);
+    }
+  }
+}
+
+TEST(JointKnownPoints, AreSearchedForAnewWhenTheirObjectIsGone) {
+  GeolocatorConfig config;
+  KnownPoint point;
+  point.position = geodetic_of(kPlace);
+  config.known_points.push_back(point);
+  NadirFlight flight = hovering(config);
+  double time_s = 0.5;
+  for (int frame = 0; frame < 40; ++frame, time_s += 0.1) flight.see(time_s, {kPlace});
+  ASSERT_EQ(flight.geolocator().known_points()[0].status, KnownPointStatus::kMatched);
+  for (int frame = 0; frame < 100; ++frame, time_s += 0.1) flight.see(time_s, {});
+  EXPECT_TRUE(flight.tracks().empty());
+  EXPECT_NE(flight.geolocator().known_points()[0].status, KnownPointStatus::kMatched);
+  for (int frame = 0; frame < 60; ++frame, time_s += 0.1) flight.see(time_s, {kPlace});
+  EXPECT_EQ(flight.geolocator().known_points()[0].status, KnownPointStatus::kMatched);
+  EXPECT_EQ(flight.geolocator().known_points()[0].track_id, only_track(flight).id);
+}
+
+TEST(JointKnownPoints, WaitUntilTheCameraHasLookedWellInsideTheImage) {
+  GeolocatorConfig config;
+  KnownPoint near_edge, inside;  // a tenth of the image's height is 72 px: 1.6 m
+  near_edge.position = geodetic_of({0.0, 7.9 - 1.2});
+  inside.position = geodetic_of({0.0, 7.9 - 2.0});
+  config.known_points = {near_edge, inside};
+  NadirFlight flight = hovering(config);
+  for (int frame = 0; frame < 30; ++frame) flight.see(0.5 + 0.1 * frame, {});
+  flight.see(4.0, {kPlace});
+  EXPECT_EQ(flight.geolocator().known_points()[0].frames_covered, 0);
+  EXPECT_EQ(flight.geolocator().known_points()[1].frames_covered, 31);
+}
+
+}  // namespace
+}  // namespace geoloc
