@@ -1,5 +1,5 @@
-# The library's CMake package: find_package(geoloc) gives geoloc::geoloc, which depends only on Eigen and
-# GeographicLib. Programs, model and flights are installed beside it.
+# The library as find_package(geoloc), which gives geoloc::geoloc, and as pkg-config's module geoloc; either needs Eigen and
+# GeographicLib alone, and may be moved with its prefix. Programs, model and flights go beside it.
 include(CMakePackageConfigHelpers)
 
 set(_package "${CMAKE_INSTALL_LIBDIR}/cmake/geoloc")
@@ -18,6 +18,22 @@ install(FILES
   "${PROJECT_BINARY_DIR}/geoloc-config-version.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/FindGeographicLib.cmake"
   DESTINATION "${_package}")
+
+# A static library carries no record of what it needs, so GeographicLib is among the public requirements: pkg-config leaves
+# private ones out unless it is told --static.
+set(_pkg_config "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+if(IS_ABSOLUTE "${_pkg_config}")
+  set(_pc_prefix "${CMAKE_INSTALL_PREFIX}")
+else()
+  file(RELATIVE_PATH _prefix_from_here "/${_pkg_config}" "/")
+  string(REGEX REPLACE "/$" "" _pc_prefix "\${pcfiledir}/${_prefix_from_here}")
+endif()
+set(_pc_libdir "\${prefix}")
+set(_pc_includedir "\${prefix}")
+cmake_path(APPEND _pc_libdir "${CMAKE_INSTALL_LIBDIR}")  # replaces the prefix where the folder is absolute
+cmake_path(APPEND _pc_includedir "${CMAKE_INSTALL_INCLUDEDIR}")
+configure_file("${PROJECT_SOURCE_DIR}/cmake/geoloc.pc.in" "${PROJECT_BINARY_DIR}/geoloc.pc" @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/geoloc.pc" DESTINATION "${_pkg_config}")
 
 foreach(_program IN ITEMS geoloc_app geoloc_detect geoloc_eval geoloc_replay geoloc_sim)
   if(TARGET ${_program})

@@ -38,6 +38,7 @@ function(geoloc_add_library target)
   geoloc_set_flags(${target})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")  # headers that users need not read
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
 endfunction()
 
@@ -46,6 +47,7 @@ function(geoloc_add_program target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;LIBRARIES")
   add_executable(${target} ${arg_SOURCES})
   geoloc_set_flags(${target})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/src")
   target_link_libraries(${target} PRIVATE ${arg_LIBRARIES})
   get_property(_libraries_elsewhere GLOBAL PROPERTY GEOLOC_INSTALL_RPATH)
   set_target_properties(${target} PROPERTIES

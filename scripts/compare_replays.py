@@ -92,8 +92,9 @@ class Build:
 
 
 def content(file):
-    """The joint method was once called full."""
-    return file.read_bytes().replace(b'"method": "full"', b'"method": "joint"')
+    """The joint method was once called full, known points references."""
+    return (file.read_bytes().replace(b'"method": "full"', b'"method": "joint"')
+            .replace(b'"references": [', b'"known_points": ['))
 
 
 def main(before, after, folder):

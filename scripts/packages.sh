@@ -2,6 +2,7 @@
 # The packages of Debian 12 and 13, which have the same names, and how the scripts install them. To be
 # sourced.
 
+LIBRARY_PACKAGES=(g++ cmake ninja-build libeigen3-dev libgeographiclib-dev libgtest-dev pkg-config)  # tests included
 BUILD_PACKAGES=(
   g++ make cmake ninja-build pkg-config python3 python3-venv
   libeigen3-dev libgeographiclib-dev

@@ -30,7 +30,7 @@ export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # shares compiled files betwe
 say "Configuring ($preset)"
 # A newer compiler may have new warnings, which must not stop a user who runs the tests: only .ci/run makes them
 # errors.
-cmake --preset "$preset" -DGEOLOC_WARNINGS_AS_ERRORS=OFF "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+cmake --preset "$preset" -DGEOLOC_WARNINGS_AS_ERRORS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 say "Building ($preset)"
 cmake --build "build/$preset"
 say "Testing ($preset)"

@@ -20,7 +20,7 @@ struct LiveConfig {
 
 nlohmann::ordered_json live_to_json(const LiveConfig& config);
 
-/// Every setting but the camera's, with default, unit and meaning, as a Markdown table (docs/settings.md).
+/// Every setting with default, range, unit and meaning, as a Markdown table (docs/settings.md).
 std::string live_settings_table();
 
 /// Reads over `config`; every fault is added to `problems`, named by its path.

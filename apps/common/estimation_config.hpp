@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "geoloc/io/json/fields.hpp"
 #include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
 #include "geoloc/io/output/cot_config.hpp"
@@ -14,7 +13,7 @@
 namespace geoloc::apps {
 
 struct FrameConfig {
-  double max_wait_s = 1.0;  ///< for the vehicle's state around a frame; then the frame is given up
+  double max_wait_s = 1.0;  ///< for the vehicle's state around a frame
 };
 
 /// What a live run and a replay have in common.
@@ -28,9 +27,6 @@ struct EstimationConfig {
 
 /// Every setting with its present value; estimation_from_json() accepts it back.
 nlohmann::ordered_json estimation_to_json(const EstimationConfig& config);
-
-/// Path, default and meaning of each setting, but for the camera's.
-std::vector<io::FieldLine> estimation_field_lines();
 
 /// Reads over `config`. `ignored_sections`: top-level keys that belong to other programs.
 void estimation_from_json(const nlohmann::json& document, const std::vector<std::string>& ignored_sections,

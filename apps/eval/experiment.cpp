@@ -6,12 +6,12 @@
 #include <mutex>
 
 #include "common/replay.hpp"
-#include "common/run_outputs.hpp"
+#include "common/run_score.hpp"
 #include "eval/parallel.hpp"
 #include "eval/survey.hpp"
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/sim/flight.hpp"
-#include "geoloc/sim/scenario.hpp"
+#include "geoloc/sim/flight/flight.hpp"
+#include "geoloc/sim/flight/scenario.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -62,7 +62,7 @@ LeftOut objects_of_known_points(const Session& session, const Survey& survey) {
 
 int known_points_used(const Session& session) {
   const auto& entries = session.geolocator().known_points();
-  return static_cast<int>(std::count_if(entries.begin(), entries.end(), [](const KnownPointReport& entry) {
+  return static_cast<int>(std::count_if(entries.begin(), entries.end(), [](const KnownPointMatch& entry) {
     return entry.status == KnownPointStatus::kMatched;
   }));
 }
@@ -99,7 +99,7 @@ RunResult run_method(const SimulatedRun& run, const Contender& contender, Estima
   result.contender = contender;
   const LeftOut told = objects_of_known_points(session, survey);
   result.score = score_run(session, survey.others, told);
-  result.nees = consistency_of_run(session, survey.others, result.score, told);
+  result.nees = mean_nees_of_run(session, survey.others, result.score, told);
   result.known_points_used = known_points_used(session);
   result.calibration = calibration_error(session, run.settings, run.flight);
   return result;

@@ -10,7 +10,7 @@
 
 #include "common/estimation_config.hpp"
 #include "geoloc/evaluation/score.hpp"
-#include "geoloc/sim/recording_generator.hpp"
+#include "geoloc/sim/flight/recording_generator.hpp"
 
 namespace geoloc::apps {
 

@@ -17,7 +17,7 @@ struct Survey {
   std::vector<io::TrueTarget> others;
 };
 
-/// Draws `count` targets; their coordinates are 5 cm off, 1-sigma, an axis.
+/// Draws `count` targets; their coordinates are off by 5 cm, 1-sigma per axis.
 Survey make_survey(std::vector<io::TrueTarget> targets, int count, std::uint64_t seed,
                    const LocalFrame& frame);
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "geoloc/sim/labelled_images.hpp"
+#include "geoloc/sim/world/labelled_images.hpp"
 
 namespace geoloc::sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live_mode.hpp"
+#include "sim/live_mode.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/stop_signal.hpp"
+#include "common/stop_signal.hpp"
 #include "geoloc/io/atomic_file.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
-#include "geoloc/sim/flight_camera.hpp"
-#include "geoloc/sim/rtsp_camera.hpp"
-#include "geoloc/sim/udp_vehicle.hpp"
+#include "geoloc/sim/live/flight_camera.hpp"
+#include "geoloc/sim/live/udp_vehicle.hpp"
+#include "geoloc/sim/rtsp/rtsp_camera.hpp"
 
 namespace geoloc::sim {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record_mode.hpp"
+#include "sim/record_mode.hpp"
 
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
 #include "geoloc/geometry/problems.hpp"
-#include "geoloc/sim/recording_generator.hpp"
+#include "geoloc/sim/flight/recording_generator.hpp"
 
 namespace geoloc::sim {
 

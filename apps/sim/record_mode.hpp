@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "geoloc/sim/simulated_detector.hpp"
-#include "run_options.hpp"
+#include "geoloc/sim/flight/simulated_detector.hpp"
+#include "sim/run_options.hpp"
 
 namespace geoloc::sim {
 

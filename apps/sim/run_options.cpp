@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run_options.hpp"
+#include "sim/run_options.hpp"
 
 #include <filesystem>
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
-#include "geoloc/sim/flight_variants.hpp"
+#include "geoloc/sim/live/flight_variants.hpp"
 
 namespace geoloc::sim {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "geoloc/sim/flight.hpp"
-#include "geoloc/sim/run_settings.hpp"
+#include "geoloc/sim/flight/flight.hpp"
+#include "geoloc/sim/flight/run_settings.hpp"
 
 namespace geoloc::sim {
 

@@ -16,9 +16,9 @@ constexpr int kCalibration = CalibrationIndex::kSize;
 constexpr double kLeastSigma = 1e-9;
 
 /// Where the head's part begins that concerns the object: at the oldest node that it was seen at.
-Eigen::Index first_place(const Landmark& landmark, const HeadLayout& layout) {
-  return landmark.begin() == landmark.end() ? layout.place_of_calibration()
-                                            : layout.place_of(landmark.begin()->number);
+Eigen::Index first_column(const Landmark& landmark, const HeadLayout& layout) {
+  return landmark.begin() == landmark.end() ? layout.column_of_calibration()
+                                            : layout.column_of(landmark.begin()->number);
 }
 
 Eigen::Index room_for(int max_nodes) {
@@ -30,7 +30,7 @@ Eigen::Index room_for(int max_nodes) {
 ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, int max_nodes)
     : information_(room_for(max_nodes)),
       right_hand_side_(room_for(max_nodes)),
-      gains_(room_for(max_nodes), 2) {
+      sensitivities_(room_for(max_nodes), 2) {
   prior_mean_ << prior.boresight_x_deg * kRadPerDeg, prior.boresight_y_deg * kRadPerDeg,
       prior.boresight_z_deg * kRadPerDeg, prior.latency_s, prior.height_m, 0.0, 0.0;
   prior_sigma_ << prior.sigma_boresight_x_deg * kRadPerDeg, prior.sigma_boresight_y_deg * kRadPerDeg,
@@ -49,13 +49,13 @@ Calibration ArrowheadSolver::prior(double sigma_offset_m) const {
 
 void ArrowheadSolver::add_prior(double sigma_offset_m, const DriftTimeline& drift, const HeadLayout& layout) {
   const CalibrationVector information = prior_sigma(sigma_offset_m).array().square().inverse();
-  const Eigen::Index last = layout.place_of_calibration();
+  const Eigen::Index last = layout.column_of_calibration();
   information_.block<kCalibration, kCalibration>(last, last).diagonal() += information;
   right_hand_side_.segment<kCalibration>(last) += information.cwiseProduct(prior_mean_);
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number) {
     const DriftNode& node = drift.node(number);
     const NodeVector information_of_node = drift.information(number);
-    const Eigen::Index here = layout.place_of(number);
+    const Eigen::Index here = layout.column_of(number);
     information_.block<kNodeSize, kNodeSize>(here, here).diagonal() += information_of_node;
     right_hand_side_.segment<kNodeSize>(here) += information_of_node.cwiseProduct(node.prior_mean);
     if (number == drift.begin()) continue;
@@ -71,7 +71,7 @@ void ArrowheadSolver::add_prior(double sigma_offset_m, const DriftTimeline& drif
 void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& layout) {
   const Eigen::Matrix2d A_inverse = landmark.A().inverse();
   const Eigen::Vector2d mean = A_inverse * landmark.b();
-  const Eigen::Index last = layout.place_of_calibration();
+  const Eigen::Index last = layout.column_of_calibration();
   const auto& B = landmark.B();
   information_.block<kCalibration, kCalibration>(last, last) +=
       landmark.C() - B.transpose() * (A_inverse * B);
@@ -80,14 +80,14 @@ void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& l
   std::array<Eigen::Matrix<double, 2, kNodeSize>, Landmark::kMaxNodes> gains;  // A^-1 B, of the nodes
   std::size_t count = 0;
   for (const Landmark::NodeTerms& own : landmark) {
-    const Eigen::Index here = layout.place_of(own.number);
+    const Eigen::Index here = layout.column_of(own.number);
     const auto& gain = gains[count++] = A_inverse * own.B;
     right_hand_side_.segment<kNodeSize>(here) += own.g + own.B.transpose() * mean;
     information_.block<kCalibration, kNodeSize>(last, here) += own.C_calibration - B.transpose() * gain;
     information_.block<kNodeSize, kNodeSize>(here, here) += own.C_own - own.B.transpose() * gain;
     const Landmark::NodeTerms* earlier = landmark.begin();
     for (std::size_t i = 0; earlier != &own; ++i, ++earlier) {
-      auto block = information_.block<kNodeSize, kNodeSize>(here, layout.place_of(earlier->number));
+      auto block = information_.block<kNodeSize, kNodeSize>(here, layout.column_of(earlier->number));
       block -= own.B.transpose() * gains[i];
       if (earlier->number + 1 == own.number) block += earlier->C_next.transpose();
     }
@@ -113,12 +113,12 @@ ArrowheadSolver::Solution::Solution(ArrowheadSolver& solver, const HeadLayout& l
       newest_covariance_(solver.information_.last_of_inverse<kNodeSize + kCalibration>()) {}
 
 Calibration ArrowheadSolver::Solution::calibration() const {
-  return {solver_->right_hand_side_.segment<kCalibration>(layout_.place_of_calibration()),
+  return {solver_->right_hand_side_.segment<kCalibration>(layout_.column_of_calibration()),
           newest_covariance_.bottomRightCorner<kCalibration, kCalibration>()};
 }
 
 NodeVector ArrowheadSolver::Solution::node(std::uint32_t number) const {
-  return solver_->right_hand_side_.segment<kNodeSize>(layout_.place_of(number));
+  return solver_->right_hand_side_.segment<kNodeSize>(layout_.column_of(number));
 }
 
 NodeMatrix ArrowheadSolver::Solution::newest_node_covariance() const {
@@ -130,10 +130,10 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
   if (drift.size() < kEnoughNodes) return std::nullopt;
   double sum = 0.0;
   int count = 0;
-  auto steps = solver_->gains_.topRows(layout_.size());
+  auto steps = solver_->sensitivities_.topRows(layout_.size());
   for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number) {
     const DriftNode& node = drift.node(number);
-    const Eigen::Index here = layout_.place_of(number), before = here - kNodeSize;
+    const Eigen::Index here = layout_.column_of(number), before = here - kNodeSize;
     const Eigen::Array2d transition = node.transition.head<2>();
     const Eigen::Array2d step =
         node.mean.head<2>().array() - transition * drift.node(number - 1).mean.head<2>().array();
@@ -148,35 +148,36 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
   return std::sqrt(sum / count);
 }
 
-void ArrowheadSolver::add_gain(const Landmark& landmark, const HeadLayout& layout, double sign) {
+void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign) {
   const Eigen::Matrix2d A_inverse = sign * landmark.A().inverse();
-  gains_.middleRows<kCalibration>(layout.place_of_calibration()) += landmark.B().transpose() * A_inverse;
+  sensitivities_.middleRows<kCalibration>(layout.column_of_calibration()) +=
+      landmark.B().transpose() * A_inverse;
   for (const Landmark::NodeTerms& terms : landmark) {
-    gains_.middleRows<kNodeSize>(layout.place_of(terms.number)) += terms.B.transpose() * A_inverse;
+    sensitivities_.middleRows<kNodeSize>(layout.column_of(terms.number)) += terms.B.transpose() * A_inverse;
   }
 }
 
-/// G S^-1 G' of the gains gathered, which are zero before `first`.
+/// G S^-1 G' of the sensitivities gathered, which are zero before `first`.
 Eigen::Matrix2d ArrowheadSolver::head_covariance(Eigen::Index first) {
-  auto gains = gains_.topRows(information_.size());
-  information_.solve_lower(gains, first);
-  const auto used = gains.bottomRows(information_.size() - first);
+  auto sensitivities = sensitivities_.topRows(information_.size());
+  information_.solve_lower(sensitivities, first);
+  const auto used = sensitivities.bottomRows(information_.size() - first);
   return used.transpose().lazyProduct(used);
 }
 
 Eigen::Matrix2d ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
-  solver_->gains_.topRows(layout_.size()).setZero();
-  solver_->add_gain(landmark, layout_, 1.0);
-  return landmark.A().inverse() + solver_->head_covariance(first_place(landmark, layout_));
+  solver_->sensitivities_.topRows(layout_.size()).setZero();
+  solver_->add_sensitivity(landmark, layout_, 1.0);
+  return landmark.A().inverse() + solver_->head_covariance(first_column(landmark, layout_));
 }
 
 Eigen::Matrix2d ArrowheadSolver::Solution::covariance_of_difference(const Landmark& a,
                                                                     const Landmark& b) const {
-  solver_->gains_.topRows(layout_.size()).setZero();
-  solver_->add_gain(a, layout_, 1.0);
-  solver_->add_gain(b, layout_, -1.0);
+  solver_->sensitivities_.topRows(layout_.size()).setZero();
+  solver_->add_sensitivity(a, layout_, 1.0);
+  solver_->add_sensitivity(b, layout_, -1.0);
   return a.A().inverse() + b.A().inverse() +
-         solver_->head_covariance(std::min(first_place(a, layout_), first_place(b, layout_)));
+         solver_->head_covariance(std::min(first_column(a, layout_), first_column(b, layout_)));
 }
 
 }  // namespace geoloc

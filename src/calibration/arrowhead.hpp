@@ -18,11 +18,11 @@ struct HeadLayout {
   std::uint32_t begin = 0;  ///< numbers of the nodes: oldest,
   std::uint32_t end = 0;    ///< and one past the newest
 
-  Eigen::Index place_of(std::uint32_t node) const {
+  Eigen::Index column_of(std::uint32_t node) const {
     return kNodeSize * static_cast<Eigen::Index>(node - begin);
   }
-  Eigen::Index place_of_calibration() const { return place_of(end); }
-  Eigen::Index size() const { return place_of_calibration() + CalibrationIndex::kSize; }
+  Eigen::Index column_of_calibration() const { return column_of(end); }
+  Eigen::Index size() const { return column_of_calibration() + CalibrationIndex::kSize; }
 };
 
 /// Least squares over everything seen so far: calibration and drift (the head) and all objects (the arrow's
@@ -76,14 +76,14 @@ class ArrowheadSolver {
   CalibrationVector prior_sigma(double sigma_offset_m) const;
   void add_prior(double sigma_offset_m, const DriftTimeline& drift, const HeadLayout& layout);
   void add_landmark(const Landmark& landmark, const HeadLayout& layout);
-  void add_gain(const Landmark& landmark, const HeadLayout& layout, double sign);
+  void add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign);
   Eigen::Matrix2d head_covariance(Eigen::Index first);
 
   CalibrationVector prior_mean_;
-  CalibrationVector prior_sigma_;       // of all but the offset
-  EnvelopeCholesky information_;        // S, and its factor after solve()
-  Eigen::VectorXd right_hand_side_;     // h, and the head after solve()
-  EnvelopeCholesky::TwoColumns gains_;  // scratch: dx/d(head), transposed
+  CalibrationVector prior_sigma_;               // of all but the offset
+  EnvelopeCholesky information_;                // S, and its factor after solve()
+  Eigen::VectorXd right_hand_side_;             // h, and the head after solve()
+  EnvelopeCholesky::TwoColumns sensitivities_;  // scratch: dx/d(head), transposed
 };
 
 }  // namespace geoloc

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "geoloc/geometry/problems.hpp"
+#include "calibration/calibration_fields.hpp"
+#include "settings/field_checker.hpp"
 
 namespace geoloc {
 
@@ -18,18 +19,7 @@ void Calibration::apply_to(Rigid3d& enu_from_camera) const {
 }
 
 std::vector<std::string> CalibrationPrior::problems() const {
-  Problems found;
-  for (const double angle : {boresight_x_deg, boresight_y_deg, boresight_z_deg}) {
-    found.require(std::abs(angle) <= 30.0, "joint.prior boresight angles must lie in [-30, 30] deg");
-  }
-  found.require(std::abs(latency_s) <= 5.0, "joint.prior.latency_s must lie in [-5, 5]");
-  found.require(std::abs(height_m) <= 100.0, "joint.prior.height_m must lie in [-100, 100]");
-  for (const double sigma : {sigma_boresight_x_deg, sigma_boresight_y_deg, sigma_boresight_z_deg,
-                             sigma_latency_s, sigma_height_m}) {
-    found.require(sigma >= 0.0 && sigma <= 100.0,
-                  "joint.prior sigmas must lie in [0, 100]; 0 freezes a component");
-  }
-  return found.take();
+  return check_fields(*this);
 }
 
 }  // namespace geoloc

@@ -4,23 +4,8 @@
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/geometry/problems.hpp"
 
 namespace geoloc {
-
-std::vector<std::string> DriftConfig::problems() const {
-  Problems found;
-  found.require(node_spacing_s >= 0.5 && node_spacing_s <= 600.0,
-                "joint.drift.node_spacing_s must lie in [0.5, 600]");
-  found.require(position_time_constant_s > 0.0 && std::isfinite(position_time_constant_s),
-                "joint.drift.position_time_constant_s must be > 0");
-  found.require(yaw_time_constant_s > 0.0 && std::isfinite(yaw_time_constant_s),
-                "joint.drift.yaw_time_constant_s must be > 0");
-  found.require(sigma_yaw_deg > 0.0 && sigma_yaw_deg <= 30.0,
-                "joint.drift.sigma_yaw_deg must lie in (0, 30]");
-  found.require(max_nodes >= 4 && max_nodes <= 500, "joint.drift.max_nodes must lie in [4, 500]");
-  return found.take();
-}
 
 DriftTimeline::DriftTimeline(const DriftConfig& config) : config_(config) {
   std::size_t length = 1;
@@ -58,7 +43,7 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
     next.mean = next.transition.cwiseProduct(node(end_ - 1).mean);
   }
   next.information = (variance.array() * (1.0 - next.transition.array().square())).inverse();
-  nodes_[place(end_)] = next;
+  nodes_[slot(end_)] = next;
   ++end_;
 }
 

@@ -37,16 +37,16 @@ class DriftTimeline {
  public:
   explicit DriftTimeline(const DriftConfig& config);
 
-  /// Nodes around `time`, made if need be. sigma_position_m: of the wandering, an axis, as believed now.
-  /// Times run forward; where one runs back (the vehicle rebooted) the drift begins anew.
+  /// Nodes around `time`, made if need be. sigma_position_m: 1-sigma per axis of the wandering, as believed
+  /// now. Times run forward; where one runs back (the vehicle rebooted) the drift begins anew.
   NodeSpan cover(VehicleTime time, double sigma_position_m);
 
   std::uint32_t begin() const { return begin_; }
   std::uint32_t end() const { return end_; }
   int size() const { return static_cast<int>(end_ - begin_); }
 
-  const DriftNode& node(std::uint32_t number) const { return nodes_[place(number)]; }
-  DriftNode& node(std::uint32_t number) { return nodes_[place(number)]; }
+  const DriftNode& node(std::uint32_t number) const { return nodes_[slot(number)]; }
+  DriftNode& node(std::uint32_t number) { return nodes_[slot(number)]; }
 
   /// The estimate at a time between two nodes.
   NodeVector at(const NodeSpan& span) const {
@@ -68,7 +68,7 @@ class DriftTimeline {
   void freeze_oldest();
 
  private:
-  std::size_t place(std::uint32_t number) const { return number & (nodes_.size() - 1); }
+  std::size_t slot(std::uint32_t number) const { return number & (nodes_.size() - 1); }
   void append(VehicleTime time, double sigma_position_m, bool continues);
 
   DriftConfig config_;

@@ -52,7 +52,7 @@ class EnvelopeCholesky {
   }
 
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;
-  /// Of each row: the column of its first element that may not be zero.
+  /// Column of the first element of each row that may not be zero.
   Eigen::Matrix<Eigen::Index, Eigen::Dynamic, 1> first_;
   Eigen::VectorXd inverse_diagonal_;
   Eigen::Index size_ = 0;

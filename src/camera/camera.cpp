@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "camera/camera_fields.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "settings/field_checker.hpp"
 
 namespace geoloc {
 namespace {
@@ -91,26 +93,7 @@ CameraIntrinsics CameraIntrinsics::from_field_of_view(int width_px, int height_p
 }
 
 std::vector<std::string> CameraConfig::problems() const {
-  Problems found;
-  constexpr int kMaxSize = 32768;
-  found.require(intrinsics.width_px > 0 && intrinsics.width_px <= kMaxSize,
-                "camera.width must lie in [1, 32768]");
-  found.require(intrinsics.height_px > 0 && intrinsics.height_px <= kMaxSize,
-                "camera.height must lie in [1, 32768]");
-  found.require(intrinsics.fx_px > 0 && std::isfinite(intrinsics.fx_px), "camera.fx must be > 0");
-  found.require(intrinsics.fy_px > 0 && std::isfinite(intrinsics.fy_px), "camera.fy must be > 0");
-  found.require(std::isfinite(intrinsics.cx_px), "camera.cx must be finite");
-  found.require(std::isfinite(intrinsics.cy_px), "camera.cy must be finite");
-  for (const double value : intrinsics.distortion) {
-    found.require(std::isfinite(value), "camera.distortion must be finite");
-  }
-  for (const double angle_deg : {mount.roll_deg, mount.pitch_deg, mount.yaw_deg}) {
-    found.require(std::abs(angle_deg) <= 360.0, "camera.mount angles must lie in [-360, 360] deg");
-  }
-  for (const double arm_m : {mount.x_m, mount.y_m, mount.z_m}) {
-    found.require(std::abs(arm_m) <= 100.0, "camera.mount lever arm must lie in [-100, 100] m");
-  }
-  return found.take();
+  return check_fields(*this);
 }
 
 Eigen::Quaterniond body_from_forward_camera() {

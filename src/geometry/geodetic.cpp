@@ -22,18 +22,18 @@ std::optional<UtmPoint> to_utm(const Geodetic& point) {
   return utm;
 }
 
-LocalFrame::LocalFrame(const Geodetic& origin, double height_ellipsoid_m)
-    : origin_(origin), height_ellipsoid_m_(height_ellipsoid_m) {
-  if (!is_valid(origin) || !std::isfinite(height_ellipsoid_m)) {
+LocalFrame::LocalFrame(const Geodetic& origin, double scale_height_m)
+    : origin_(origin), scale_height_m_(scale_height_m) {
+  if (!is_valid(origin) || !std::isfinite(scale_height_m)) {
     throw std::invalid_argument("LocalFrame: the origin is not a point on the WGS84 ellipsoid");
   }
-  cartesian_ = std::make_shared<const GeographicLib::LocalCartesian>(
-      origin.latitude_deg, origin.longitude_deg, height_ellipsoid_m);
+  cartesian_ = std::make_shared<const GeographicLib::LocalCartesian>(origin.latitude_deg,
+                                                                     origin.longitude_deg, scale_height_m);
 }
 
 LocalPoint LocalFrame::to_local(const Geodetic& point) const {
   double x = 0.0, y = 0.0, z = 0.0;
-  cartesian_->Forward(point.latitude_deg, point.longitude_deg, height_ellipsoid_m_, x, y, z);
+  cartesian_->Forward(point.latitude_deg, point.longitude_deg, scale_height_m_, x, y, z);
   // Meridian convergence to first order in the longitude difference; its error is below 1e-5 rad within 50
   // km.
   const double longitude_difference_deg = std::remainder(point.longitude_deg - origin_.longitude_deg, 360.0);
@@ -52,7 +52,7 @@ Geodetic LocalFrame::to_geodetic(const Eigen::Vector2d& position_in_enu) const {
     double height = 0.0;
     cartesian_->Reverse(position_in_enu.x(), position_in_enu.y(), up, point.latitude_deg, point.longitude_deg,
                         height);
-    up -= height - height_ellipsoid_m_;
+    up -= height - scale_height_m_;
   }
   return point;
 }

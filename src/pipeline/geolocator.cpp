@@ -10,6 +10,8 @@
 #include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
+#include "pipeline/geolocator_fields.hpp"
+#include "settings/field_checker.hpp"
 #include "tracking/joint_tracker.hpp"
 #include "tracking/paper_tracker.hpp"
 
@@ -51,16 +53,7 @@ bool canonical_order(const Detection& a, const Detection& b) {
 }  // namespace
 
 std::vector<std::string> GeolocatorConfig::problems() const {
-  Problems found;
-  found.require(max_detections >= 1 && max_detections <= 10000, "max_detections must lie in [1, 10000]");
-  found.require(edge_margin_px >= 0.0, "edge_margin_px must be >= 0");
-  found.add(camera.problems());
-  found.add(state.problems());
-  found.add(projector.problems());
-  found.add(paper.problems());
-  found.add(joint.problems());
-  for (const KnownPoint& point : known_points) found.add(point.problems());
-  return found.take();
+  return check_fields(*this);
 }
 
 class Geolocator::Implementation {
@@ -194,7 +187,7 @@ std::optional<Calibration> Geolocator::calibration() const {
   return implementation_->tracker->calibration_of_camera();
 }
 
-const std::vector<KnownPointReport>& Geolocator::known_points() const {
+const std::vector<KnownPointMatch>& Geolocator::known_points() const {
   return implementation_->tracker->known_points();
 }
 

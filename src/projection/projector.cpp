@@ -6,6 +6,8 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/geometry/ray_plane.hpp"
+#include "projection/projector_fields.hpp"
+#include "settings/field_checker.hpp"
 
 namespace geoloc {
 namespace {
@@ -25,13 +27,7 @@ Eigen::Matrix2d ground_from_normalized(const Eigen::Matrix3d& rotation, const Ei
 }  // namespace
 
 std::vector<std::string> ProjectorConfig::problems() const {
-  Problems found;
-  found.require(std::abs(ground_height_above_home_m) <= 10000.0,
-                "projector.ground_height_above_home_m must lie in [-10000, 10000]");
-  found.require(max_range_m > 0.0 && max_range_m <= 100e3, "projector.max_range_m must lie in (0, 100000]");
-  found.require(min_depression_deg > 0.0 && min_depression_deg < 90.0,
-                "projector.min_depression_deg must lie in (0, 90)");
-  return found.take();
+  return check_fields(*this);
 }
 
 Projector::Projector(const ProjectorConfig& config, const CameraIntrinsics& intrinsics)

@@ -5,6 +5,8 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "settings/field_checker.hpp"
+#include "state/state_fields.hpp"
 
 namespace geoloc {
 namespace {
@@ -32,11 +34,7 @@ Eigen::Vector3d angular_velocity_in_body(const Bracket<EulerAngles>& bracket) {
 }  // namespace
 
 std::vector<std::string> StateConfig::problems() const {
-  Problems found;
-  found.require(max_gap_s > 0.0 && max_gap_s <= 60.0, "state.max_gap_s must lie in (0, 60]");
-  found.require(max_extrapolation_s >= 0.0 && max_extrapolation_s <= 0.1,
-                "state.max_extrapolation_s must lie in [0, 0.1]");
-  return found.take();
+  return check_fields(*this);
 }
 
 StateProvider::StateProvider(const StateConfig& config) : config_(config) {
@@ -79,8 +77,9 @@ void StateProvider::add(const PositionSample& sample) {
   }
   if (!accept_stamp(sample.time)) return;
   if (!frame_) {
-    const double home_height_m = sample.height_msl_m - sample.height_above_home_m;
-    frame_.emplace(sample.position, std::isfinite(home_height_m) ? home_height_m : 0.0);
+    if (sample.height_msl_m && std::isfinite(*sample.height_msl_m))
+      home_height_msl_m_ = *sample.height_msl_m - sample.height_above_home_m;
+    frame_.emplace(sample.position, home_height_msl_m_.value_or(0.0));
   }
   const LocalPoint local = frame_->to_local(sample.position);
   if (!(local.position_in_enu.norm() < kFrameReach_m)) {

@@ -18,7 +18,7 @@ struct ConstantVelocity {
   static ConstantVelocity at(const Eigen::Vector2d& position, const Eigen::Matrix2d& position_covariance,
                              double sigma_speed_mps);
 
-  /// time_s >= 0; sigma_acceleration: 1-sigma an axis of the acceleration's mean over a second.
+  /// time_s >= 0; sigma_acceleration: 1-sigma per axis of the mean acceleration over one second.
   void predict(double time_s, double sigma_acceleration_mps2);
 
   /// Kalman update by a measured position, in Joseph's form. Returns the gain.

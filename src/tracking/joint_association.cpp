@@ -10,7 +10,7 @@
 namespace geoloc {
 namespace {
 
-/// Of a look that shows no known track, in the units of a squared distance plus the logarithm of its
+/// Cost of a look that shows no known track, in the units of a squared distance plus the logarithm of its
 /// covariance's determinant: -2 ln(2 pi density), where objects not known yet stand one to 100 m^2.
 constexpr double kCostAlone = 5.53;
 /// Explanations tried of one frame.
@@ -22,8 +22,8 @@ constexpr int kRounds = 2;
 /// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.
 constexpr std::size_t kPairingsPerLook = 16;
 
-/// Of a pair's residual, where the shared error has that covariance. lazyProduct: Eigen takes matrices of
-/// this size for large ones, and packs them first.
+/// Covariance of a pair's residual, where the shared error has that covariance. lazyProduct: Eigen takes
+/// matrices of this size for large ones, and packs them first.
 Eigen::Matrix2d residual_covariance(const Pairing& pairing, const SharedError::Matrix& covariance) {
   const SharedError::Row product = pairing.jacobian.lazyProduct(covariance);
   return pairing.own_covariance + product.lazyProduct(pairing.jacobian.transpose());
@@ -80,7 +80,7 @@ void JointAssociation::add(const Pairing& pairing) {
   ++pairings_of_column_[column];
 }
 
-void JointAssociation::Estimate::add(const Pairing& pairing) {
+void JointAssociation::Posterior::add(const Pairing& pairing) {
   const Eigen::Matrix<double, SharedError::kSize, 2> crossed =
       covariance.lazyProduct(pairing.jacobian.transpose());
   const Eigen::Matrix2d innovation_covariance =
@@ -109,7 +109,7 @@ bool JointAssociation::is_plain() const {
          std::none_of(pairings_of_column_.begin(), pairings_of_column_.end(), has_choice);
 }
 
-void JointAssociation::assign(const Estimate& estimate, std::size_t look_left_alone,
+void JointAssociation::assign(const Posterior& posterior, std::size_t look_left_alone,
                               std::vector<std::size_t>& pairing_of_look) {
   auto costs = costs_.topLeftCorner(pairings_of_look_.size(), track_of_column_.size());
   costs.setConstant(gate_);
@@ -117,8 +117,8 @@ void JointAssociation::assign(const Estimate& estimate, std::size_t look_left_al
     const Pairing& pairing = pairings_[p];
     if (pairing.look == look_left_alone) continue;
     const std::size_t column = column_of_track_[pairing.track];
-    costs(pairing.look, column) = mahalanobis_squared(pairing.residual - pairing.jacobian * estimate.mean,
-                                                      residual_covariance(pairing, estimate.covariance)) +
+    costs(pairing.look, column) = mahalanobis_squared(pairing.residual - pairing.jacobian * posterior.mean,
+                                                      residual_covariance(pairing, posterior.covariance)) +
                                   pairing.penalty;
     pairing_at_(pairing.look, column) = p;
   }
@@ -133,18 +133,18 @@ void JointAssociation::assign(const Estimate& estimate, std::size_t look_left_al
 void JointAssociation::explain(const Pairing* start, std::size_t look_left_alone) {
   if (hypothesis_count_ == kMostHypotheses) return;
   Hypothesis& hypothesis = hypotheses_[hypothesis_count_++];
-  Estimate estimate;
-  if (start != nullptr) estimate.add(*start);
+  Posterior posterior;
+  if (start != nullptr) posterior.add(*start);
   for (int round = 0; round < kRounds; ++round) {
-    assign(estimate, look_left_alone, hypothesis.pairing_of_look);
-    estimate = Estimate{};
+    assign(posterior, look_left_alone, hypothesis.pairing_of_look);
+    posterior = Posterior{};
     for (const std::size_t pairing : hypothesis.pairing_of_look) {
-      if (pairing != kNone) estimate.add(pairings_[pairing]);
+      if (pairing != kNone) posterior.add(pairings_[pairing]);
     }
   }
   const auto alone = std::count(hypothesis.pairing_of_look.begin(), hypothesis.pairing_of_look.end(), kNone);
-  hypothesis.estimate = estimate;
-  hypothesis.cost = estimate.cost + kCostAlone * static_cast<double>(alone);
+  hypothesis.posterior = posterior;
+  hypothesis.cost = posterior.cost + kCostAlone * static_cast<double>(alone);
 }
 
 /// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.
@@ -183,8 +183,8 @@ void JointAssociation::report_best() {
     }
     if (!match.track) continue;
     const Pairing& pairing = pairings_[best.pairing_of_look[i]];
-    match.innovation = pairing.residual - pairing.jacobian * best.estimate.mean;
-    match.innovation_covariance = residual_covariance(pairing, best.estimate.covariance);
+    match.innovation = pairing.residual - pairing.jacobian * best.posterior.mean;
+    match.innovation_covariance = residual_covariance(pairing, best.posterior.covariance);
   }
 }
 

@@ -48,7 +48,7 @@ class JointAssociation {
   /// A pair that may belong together; those beyond the gate by themselves are dropped.
   void add(const Pairing& pairing);
 
-  /// One match a look. Where no look has a choice, each goes to its track, which is a good deal faster.
+  /// One match per look. Where no look has a choice, each goes to its track, which is a good deal faster.
   const std::vector<Match>& solve();
 
   /// The same, but looks must agree also where none has a choice.
@@ -65,7 +65,7 @@ class JointAssociation {
 
  private:
   /// Shared error given some pairs.
-  struct Estimate {
+  struct Posterior {
     SharedError::Vector mean = SharedError::Vector::Zero();
     SharedError::Matrix covariance = SharedError::Matrix::Identity();
     double cost = 0.0;  // of the pairs, jointly: -2 ln of their probability density, but for a constant
@@ -77,7 +77,7 @@ class JointAssociation {
   struct Hypothesis {
     std::vector<std::size_t> pairing_of_look;  // kNone: left alone
     double cost = 0.0;
-    Estimate estimate;
+    Posterior posterior;
   };
 
   enum class Starts { kAmbiguousLooks, kEveryPairing };
@@ -86,7 +86,7 @@ class JointAssociation {
   bool is_doubtful(std::size_t look) const;
   bool is_plain() const;
   void explain(const Pairing* start, std::size_t look_left_alone);
-  void assign(const Estimate& estimate, std::size_t look_left_alone,
+  void assign(const Posterior& posterior, std::size_t look_left_alone,
               std::vector<std::size_t>& pairing_of_look);
   void try_other_explanations(Starts starts);
   void report_best();

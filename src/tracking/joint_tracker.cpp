@@ -46,14 +46,14 @@ ShownObject shown_object(const RestingObject& track, const std::vector<Look>& lo
                          const FrameShift& shift) {
   ShownObject object;
   object.position_in_enu = shift.shown(track.track.position_in_enu.mean);
-  object.sigma_m = std::sqrt(track.own_covariance.trace() + track.gain.squaredNorm());
+  object.sigma_m = std::sqrt(track.own_covariance.trace() + track.sensitivity.squaredNorm());
   object.size_m = track.size_m;
   // Its look's is as good and known already.
   if (track.look) object.ground_per_pixel_m = looks[*track.look].ground_per_pixel_m;
   return object;
 }
 
-void state_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
+void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
   for (RestingObject& track : tracks)
     track.track.position_in_enu.covariance = solution.covariance(*track.landmark);
 }
@@ -210,9 +210,9 @@ void JointTracker::refine(const JointFrame& frame, const FrameNoise& noise) {
   if (!solution) return;
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
-  state_covariances(*solution, tracks_);
+  update_covariances(*solution, tracks_);
   if (!match_known_points(*solution, noise)) return;
-  if (const auto with_known_points = solve(frame)) state_covariances(*with_known_points, tracks_);
+  if (const auto with_known_points = solve(frame)) update_covariances(*with_known_points, tracks_);
 }
 
 std::optional<ArrowheadSolver::Solution> JointTracker::solve(const JointFrame& frame) {

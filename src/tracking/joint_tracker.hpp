@@ -34,7 +34,7 @@ class JointTracker final : public Tracker {
   const TrackCounters& counters() const override { return book_.counters; }
   const Calibration& calibration() const override { return errors_.calibration; }
   std::optional<Calibration> calibration_of_camera() const override;
-  const std::vector<KnownPointReport>& known_points() const override { return known_points_.reports(); }
+  const std::vector<KnownPointMatch>& known_points() const override { return known_points_.matches(); }
 
  private:
   using Solution = ArrowheadSolver::Solution;

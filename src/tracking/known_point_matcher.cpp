@@ -3,7 +3,8 @@
 
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "settings/field_checker.hpp"
+#include "tracking/known_point_fields.hpp"
 
 namespace geoloc {
 namespace {
@@ -15,16 +16,13 @@ constexpr int kFramesToFind = 20;
 }  // namespace
 
 std::vector<std::string> KnownPoint::problems() const {
-  Problems found;
-  found.require(is_valid(position), "a known point has no valid coordinates");
-  found.require(sigma_m > 0.0 && sigma_m <= 100.0, "sigma_m of a known point must lie in (0, 100]");
-  return found.take();
+  return check_fields(*this);
 }
 
 KnownPointMatcher::KnownPointMatcher(std::vector<KnownPoint> points, int max_tracks)
     : points_(std::move(points)),
       entries_(points_.size()),
-      reports_(points_.size()),
+      matches_(points_.size()),
       association_(static_cast<int>(points_.size()), points_.empty() ? 0 : max_tracks) {
   open_.reserve(points_.size());
 }
@@ -32,7 +30,7 @@ KnownPointMatcher::KnownPointMatcher(std::vector<KnownPoint> points, int max_tra
 void KnownPointMatcher::list_open() {
   open_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (reports_[i].status != KnownPointStatus::kMatched && entries_[i].frames_covered >= kFramesToFind)
+    if (matches_[i].status != KnownPointStatus::kMatched && entries_[i].frames_covered >= kFramesToFind)
       open_.push_back(i);
   }
 }
@@ -64,14 +62,14 @@ bool KnownPointMatcher::match(const std::vector<Candidate>& candidates, const Si
   const auto& matches = association_.solve_thoroughly();
   bool is_new = false;
   for (std::size_t i = 0; i < open_.size(); ++i) {
-    KnownPointReport& report = reports_[open_[i]];
+    KnownPointMatch& known = matches_[open_[i]];
     const Candidate* const candidate = matches[i].track ? &candidates[*matches[i].track] : nullptr;
     if (matches[i].is_ambiguous || (candidate != nullptr && !candidate->is_confirmed)) {
-      report.status = KnownPointStatus::kAmbiguous;
+      known.status = KnownPointStatus::kAmbiguous;
     } else if (candidate == nullptr) {
-      report.status = KnownPointStatus::kNoObject;
+      known.status = KnownPointStatus::kNoObject;
     } else {
-      report = {KnownPointStatus::kMatched, candidate->track_id};
+      known = {KnownPointStatus::kMatched, candidate->track_id};
       is_new = true;
     }
   }
@@ -79,16 +77,16 @@ bool KnownPointMatcher::match(const std::vector<Candidate>& candidates, const Si
 }
 
 void KnownPointMatcher::rename(std::uint64_t gone, std::uint64_t kept) {
-  if (const auto point = point_of(gone)) reports_[*point].track_id = kept;
+  if (const auto point = point_of(gone)) matches_[*point].track_id = kept;
 }
 
 void KnownPointMatcher::forget(std::uint64_t track_id) {
-  if (const auto point = point_of(track_id)) reports_[*point].status = KnownPointStatus::kNotCovered;
+  if (const auto point = point_of(track_id)) matches_[*point].status = KnownPointStatus::kNotCovered;
 }
 
 std::optional<std::size_t> KnownPointMatcher::point_of(std::uint64_t track_id) const {
-  for (std::size_t i = 0; i < reports_.size(); ++i) {
-    if (reports_[i].status == KnownPointStatus::kMatched && reports_[i].track_id == track_id) return i;
+  for (std::size_t i = 0; i < matches_.size(); ++i) {
+    if (matches_[i].status == KnownPointStatus::kMatched && matches_[i].track_id == track_id) return i;
   }
   return std::nullopt;
 }

@@ -64,7 +64,7 @@ class KnownPointMatcher {
   /// What is known of a track that is one of the points.
   std::optional<Survey> survey_of(std::uint64_t track_id) const;
 
-  const std::vector<KnownPointReport>& reports() const { return reports_; }
+  const std::vector<KnownPointMatch>& matches() const { return matches_; }
 
  private:
   struct Entry {
@@ -77,9 +77,9 @@ class KnownPointMatcher {
   std::optional<std::size_t> point_of(std::uint64_t track_id) const;
 
   std::vector<KnownPoint> points_;
-  std::vector<Entry> entries_;             // of the points
-  std::vector<KnownPointReport> reports_;  // of the points
-  std::vector<std::size_t> open_;          // scratch: points to match
+  std::vector<Entry> entries_;            // of the points
+  std::vector<KnownPointMatch> matches_;  // of the points
+  std::vector<std::size_t> open_;         // scratch: points to match
   JointAssociation association_;
 };
 

@@ -53,7 +53,8 @@ void LookMatcher::list_reaches(const TrackTable& tracks, const SharedError::Row&
   reach_of_track_.clear();
   for (const RestingObject& track : tracks) {
     reach_of_track_.push_back({track.track.position_in_enu.mean,
-                               track.own_covariance.trace() + frame_variance, (track.gain - mean).norm()});
+                               track.own_covariance.trace() + frame_variance,
+                               (track.sensitivity - mean).norm()});
   }
 }
 
@@ -88,7 +89,7 @@ Pairing LookMatcher::pairing(const Look& look, const RestingObject& track, const
   const double fresh = 1.0 - share * noise.common_share(now - track.last_look);
   Pairing pairing;
   pairing.residual = look.position - track.track.position_in_enu.mean;
-  pairing.jacobian = look.jacobian - track.gain;
+  pairing.jacobian = look.jacobian - track.sensitivity;
   pairing.jacobian.middleCols<2>(SharedError::kFrame) *= std::sqrt(fresh);
   pairing.own_covariance =
       look.pixel_noise + track.pixel_information.inverse() + fresh * share * noise.covariance;

@@ -15,8 +15,8 @@ constexpr double kMergeGate = 13.3;
 
 /// Noise of a look against a track [m^2]: the detector's, and what calibration, drift and frame shift the one
 /// and not the other.
-Eigen::Matrix2d noise_against(const Look& look, const SharedError::Row& gain) {
-  const SharedError::Row difference = look.jacobian - gain;
+Eigen::Matrix2d noise_against(const Look& look, const SharedError::Row& sensitivity) {
+  const SharedError::Row difference = look.jacobian - sensitivity;
   return look.pixel_noise + difference.lazyProduct(difference.transpose());
 }
 
@@ -74,7 +74,7 @@ void MovingTracker::associate(const std::vector<Look>& looks) {
     for (std::size_t c = 0; c < active_.size(); ++c) {
       const MovingObject& object = objects_[active_[c]];
       const Eigen::Matrix2d covariance =
-          object.motion.position_covariance() + noise_against(looks[i], object.gain);
+          object.motion.position_covariance() + noise_against(looks[i], object.sensitivity);
       const bool is_same_class = looks[i].detection.class_id == object.track.class_id();
       costs(i, c) = mahalanobis_squared(looks[i].position - object.motion.position(), covariance) +
                     (is_same_class ? 0.0 : config_.class_mismatch_cost);
@@ -91,17 +91,17 @@ void MovingTracker::associate(const std::vector<Look>& looks) {
 }
 
 void MovingTracker::absorb(MovingObject& object, const Look& look, const Context& context) const {
-  const Eigen::Matrix2d noise = noise_against(look, object.gain);
+  const Eigen::Matrix2d noise = noise_against(look, object.sensitivity);
   const Eigen::Matrix2d covariance = object.motion.position_covariance() + noise;
   const Eigen::Vector2d innovation = look.position - object.motion.position();
   object.existence.hit(context.detection_probability, density(innovation, covariance), look.clutter_density);
   const ConstantVelocity::Gain gain = object.motion.update(look.position, noise);
   // What shifts the looks shifts the track as far as it follows them.
-  object.gain += gain.topRows<2>() * (lasting(look.jacobian) - object.gain);
+  object.sensitivity += gain.topRows<2>() * (lasting(look.jacobian) - object.sensitivity);
   record_look(object, look, context.frame.time(), context.frame.view.captured_at_host);
   object.track.position_in_enu = {object.motion.position(),
                                   object.motion.position_covariance() +
-                                      object.gain.lazyProduct(object.gain.transpose()) +
+                                      object.sensitivity.lazyProduct(object.sensitivity.transpose()) +
                                       context.offset_covariance};
   object.track.velocity_in_enu = Gaussian2{object.motion.velocity(), object.motion.velocity_covariance()};
   confirm_if_probable(object, config_.confirm_probability);
@@ -117,7 +117,7 @@ void MovingTracker::begin(const Look& look, const Context& context, TrackBook& b
   record_look(object, look, context.frame.time(), context.frame.view.captured_at_host);
   object.motion = ConstantVelocity::at(look.position, noise_against(look, lasting(look.jacobian)),
                                        config_.moving.sigma_speed_mps);
-  object.gain = lasting(look.jacobian);
+  object.sensitivity = lasting(look.jacobian);
   object.track.position_in_enu = {
       look.position,
       look.pixel_noise + look.jacobian * look.jacobian.transpose() + context.offset_covariance};
@@ -189,7 +189,7 @@ void MovingTracker::merge(std::size_t kept_row, std::size_t gone_row) {
   const MovingObject& gone = objects_[gone_row];
   if (gone.motion.covariance.trace() < kept.motion.covariance.trace()) {
     kept.motion = gone.motion;
-    kept.gain = gone.gain;
+    kept.sensitivity = gone.sensitivity;
     kept.track.position_in_enu = gone.track.position_in_enu;
     kept.track.velocity_in_enu = gone.track.velocity_in_enu;
   }

@@ -22,22 +22,6 @@ void absorb(Track& kept, const Track& gone) {
 
 }  // namespace
 
-std::vector<std::string> PaperTrackerConfig::problems() const {
-  Problems found;
-  found.require(measurement_sigma_m > 0.0 && measurement_sigma_m <= 1000.0,
-                "paper.measurement_sigma_m must lie in (0, 1000]");
-  found.require(process_sigma_m >= 0.0 && process_sigma_m <= 100.0,
-                "paper.process_sigma_m must lie in [0, 100]");
-  found.require(gate > 0.0 && gate <= 100.0, "paper.gate must lie in (0, 100]");
-  found.require(confirm_hits >= 1, "paper.confirm_hits must be >= 1");
-  found.require(max_penalty >= 1, "paper.max_penalty must be >= 1");
-  found.require(visible_margin_px >= 0.0, "paper.visible_margin_px must be >= 0");
-  found.require(merge_distance_m >= 0.0 && std::isfinite(merge_distance_m),
-                "paper.merge_distance_m must be >= 0");
-  found.require(max_tracks >= 1 && max_tracks <= 100000, "paper.max_tracks must lie in [1, 100000]");
-  return found.take();
-}
-
 PaperTracker::PaperTracker(const PaperTrackerConfig& config, int max_detections)
     : config_(config),
       measurement_covariance_(isotropic(config.measurement_sigma_m)),

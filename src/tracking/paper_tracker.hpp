@@ -18,7 +18,7 @@
 namespace geoloc {
 
 /// Spatial refinement as published (paper, section 4): optimal assignment on Mahalanobis distances, one
-/// Kalman filter an object, penalties for objects that should be visible and are not, merging of confirmed
+/// Kalman filter per object, penalties for objects that should be visible and are not, merging of confirmed
 /// neighbours. Where a detection states a sigma, what that makes on the ground is added to R.
 class PaperTracker final : public Tracker {
  public:
@@ -32,7 +32,7 @@ class PaperTracker final : public Tracker {
   const TrackCounters& counters() const override { return counters_; }
   const Calibration& calibration() const override { return no_calibration_; }
   std::optional<Calibration> calibration_of_camera() const override { return std::nullopt; }
-  const std::vector<KnownPointReport>& known_points() const override { return no_known_points_; }
+  const std::vector<KnownPointMatch>& known_points() const override { return no_known_points_; }
 
  private:
   void associate(const std::vector<LocatedDetection>& detections);
@@ -55,7 +55,7 @@ class PaperTracker final : public Tracker {
   std::uint64_t next_id_ = 1;
   TrackCounters counters_;
   const Calibration no_calibration_;
-  const std::vector<KnownPointReport> no_known_points_;
+  const std::vector<KnownPointMatch> no_known_points_;
 };
 
 }  // namespace geoloc

@@ -20,7 +20,7 @@ Eigen::Matrix<double, 2, kNodeSize> recent_drift(const Landmark& landmark, const
 void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now) {
   const Landmark& landmark = *object.landmark;
   object.own_covariance = landmark.A().inverse();
-  object.gain =
+  object.sensitivity =
       errors.whitened(object.own_covariance * landmark.B().leftCols<SharedError::kCalibrationSize>(),
                       object.own_covariance * recent_drift(landmark, now));
   object.track.position_in_enu.mean = landmark.position(errors.calibration.mean, errors.drift);

@@ -30,7 +30,7 @@ struct TrackedObject {
   VehicleTime last_look{};
   double size_m = 0.0;  ///< apparent, mean
   /// d position / d shared error of the next looks, whitened [m].
-  SharedError::Row gain = SharedError::Row::Zero();
+  SharedError::Row sensitivity = SharedError::Row::Zero();
   bool is_seen = false;  ///< in the present frame
 
   bool is_confirmed() const { return track.status == TrackStatus::kConfirmed; }

@@ -44,7 +44,7 @@ class Tracker {
   virtual std::optional<Calibration> calibration_of_camera() const = 0;
 
   /// In the order of the configuration; empty where the method uses none.
-  virtual const std::vector<KnownPointReport>& known_points() const = 0;
+  virtual const std::vector<KnownPointMatch>& known_points() const = 0;
 };
 
 }  // namespace geoloc

@@ -57,16 +57,21 @@ class Priors(AppTest):
 
     def test_two_known_points_take_the_receivers_offset_out(self):
         _, without, _ = self.replay()
-        objects, told, _ = self.replay("--reference", self.survey([self.targets[0], self.targets[29]]))
-        self.assertEqual([reference["status"] for reference in objects["references"]], ["matched", "matched"])
+        objects, told, _ = self.replay("--known-points", self.survey([self.targets[0], self.targets[29]]))
+        self.assertEqual([point["status"] for point in objects["known_points"]], ["matched", "matched"])
         self.assertLess(told, 0.6 * without)
+
+    def test_known_points_were_once_called_references(self):
+        survey = self.survey(self.targets[:1])
+        self.assertEqual(self.replay("--reference", survey)[0], self.replay("--known-points", survey)[0])
+        self.assertNotIn("--reference", run("geoloc_replay", "--help").out)
 
     def test_a_known_point_where_nothing_is_changes_nothing_and_is_reported(self):
         expected, _, _ = self.replay()
-        objects, _, messages = self.replay("--reference", self.survey(self.targets[:1], north_deg=1e-4))
+        objects, _, messages = self.replay("--known-points", self.survey(self.targets[:1], north_deg=1e-4))
         self.assertEqual(objects["features"], expected["features"])
-        self.assertNotEqual(objects["references"][0]["status"], "matched")
-        self.assertIn("reference mark 0 not used", messages)
+        self.assertNotEqual(objects["known_points"][0]["status"], "matched")
+        self.assertIn("known point mark 0 not used", messages)
 
     def test_a_vehicle_flown_twice_starts_calibrated(self):
         first, _, _ = self.replay()
@@ -77,11 +82,11 @@ class Priors(AppTest):
                                    delta=3 * first["calibration"][key]["sigma"])
 
     def test_unusable_files_are_refused_before_anything_starts(self):
-        for options in (["--reference", "missing.geojson"], ["--calibration", "missing.geojson"],
-                        ["--method", "paper", "--reference", self.survey(self.targets[:1])]):
+        for options in (["--known-points", "missing.geojson"], ["--calibration", "missing.geojson"],
+                        ["--method", "paper", "--known-points", self.survey(self.targets[:1])]):
             result = run("geoloc_replay", self.recording, *options)
             self.assertEqual(result.status, 2)
-            self.assertIn("--reference" if "paper" in options else "missing.geojson", result.err)
+            self.assertIn("--known-points" if "paper" in options else "missing.geojson", result.err)
 
 
 class BadRecordings(AppTest):

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "geoloc/sim/mavlink_frame.hpp"
-#include "geoloc/sim/truth_file.hpp"
+#include "geoloc/sim/flight/mavlink_frame.hpp"
+#include "truth_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace geoloc::sim;

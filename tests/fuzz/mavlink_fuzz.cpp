@@ -30,7 +30,7 @@ class DistrustfulSink : public io::TelemetrySink {
   }
   void on_position(const PositionSample& sample) override {
     require(is_valid(sample.position));
-    require(std::isfinite(sample.height_above_home_m + sample.height_msl_m));
+    require(std::isfinite(sample.height_above_home_m + *sample.height_msl_m));
     require(!sample.sigma_horizontal_m || *sample.sigma_horizontal_m > 0.0);
     require(sample.time.time_since_epoch() >= 0ns);
   }

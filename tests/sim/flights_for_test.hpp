@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "geoloc/sim/flight.hpp"
+#include "geoloc/sim/flight/flight.hpp"
 
 namespace geoloc::sim {
 

@@ -42,7 +42,7 @@ struct Calibration {
   double sigma(int index) const { return std::sqrt(covariance(index, index)); }
 };
 
-/// What is believed before the first frame, 1-sigma. A component is frozen by a sigma of 0.
+/// What is believed before the first frame. A component is frozen by a sigma (1-sigma) of 0.
 struct CalibrationPrior {
   double boresight_x_deg = 0.0, boresight_y_deg = 0.0, boresight_z_deg = 0.0;
   double latency_s = 0.0;
@@ -50,8 +50,8 @@ struct CalibrationPrior {
   double sigma_boresight_x_deg = 1.5;  ///< hand-mounted cameras are off by a degree or two
   double sigma_boresight_y_deg = 1.5;
   double sigma_boresight_z_deg = 3.0;  ///< and the compass is worse than the mount
-  double sigma_latency_s = 0.3;        ///< exposure, encoder, link and clock together
-  double sigma_height_m = 0.7;         ///< barometer at take-off, and the ground against it
+  double sigma_latency_s = 0.3;
+  double sigma_height_m = 0.7;
 
   std::vector<std::string> problems() const;
 };

@@ -13,8 +13,8 @@ struct DriftConfig {
   double node_spacing_s = 5.0;
   double position_time_constant_s = 30.0;
   double yaw_time_constant_s = 60.0;
-  double sigma_yaw_deg = 0.7;  ///< of the wandering, 1-sigma
-  int max_nodes = 36;          ///< older ones are frozen at their estimates
+  double sigma_yaw_deg = 0.7;
+  int max_nodes = 36;  ///< older ones are frozen at their estimates
 
   std::vector<std::string> problems() const;
 };

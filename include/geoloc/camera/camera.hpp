@@ -43,7 +43,7 @@ struct CameraConfig {
   CameraIntrinsics intrinsics;
   CameraMount mount;
 
-  /// Every fault, named by its JSON path; empty where the camera can be used.
+  /// Every fault, named by its path; empty where the camera can be used.
   std::vector<std::string> problems() const;
 };
 

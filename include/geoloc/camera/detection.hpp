@@ -24,7 +24,7 @@ struct Detection {
   Box box;
   double confidence = 0.0;  ///< 0..1
   int class_id = 0;
-  /// 1-sigma of the box's centre, an axis; 0: not stated, and the configured constant holds.
+  /// 1-sigma of the box's centre per axis; 0: not stated, and the configured constant holds.
   double sigma_px = 0.0;
 
   double sigma_px_or(double constant_px) const { return sigma_px > 0.0 ? sigma_px : constant_px; }

@@ -42,19 +42,18 @@ struct LocalPoint {
 /// differ by less than 1 cm within 10 km of the origin.
 class LocalFrame {
  public:
-  /// height_ellipsoid_m is where metres are true: the height of home, roughly (100 m of error scale lengths
+  /// scale_height_m: height at which metres are true, in any datum, since 100 m of error scale lengths
   /// by 1.6e-5). Throws std::invalid_argument for an invalid origin or a non-finite height.
-  explicit LocalFrame(const Geodetic& origin, double height_ellipsoid_m = 0.0);
+  explicit LocalFrame(const Geodetic& origin, double scale_height_m = 0.0);
 
   LocalPoint to_local(const Geodetic& point) const;
   Geodetic to_geodetic(const Eigen::Vector2d& position_in_enu) const;
 
   const Geodetic& origin() const { return origin_; }
-  double height_ellipsoid_m() const { return height_ellipsoid_m_; }
 
  private:
   Geodetic origin_;
-  double height_ellipsoid_m_;
+  double scale_height_m_;
   std::shared_ptr<const GeographicLib::LocalCartesian> cartesian_;  // shared: immutable, so copies stay cheap
 };
 

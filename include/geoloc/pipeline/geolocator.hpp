@@ -71,7 +71,7 @@ class Geolocator {
   std::optional<Calibration> calibration() const;
 
   /// What became of the known points, in the order of the configuration; empty where the method uses none.
-  const std::vector<KnownPointReport>& known_points() const;
+  const std::vector<KnownPointMatch>& known_points() const;
 
   /// The frame of all positions; set by the first position of the vehicle.
   const std::optional<LocalFrame>& local_frame() const;

@@ -16,7 +16,7 @@ namespace geoloc {
 
 /// How objects are estimated from the fixes.
 enum class Method {
-  kPaper,  ///< one Kalman filter an object, every error taken as noise (PaperTracker)
+  kPaper,  ///< one Kalman filter per object, every error taken as noise (PaperTracker)
   kJoint   ///< objects, the camera's calibration and the vehicle's drift together (JointTracker)
 };
 
@@ -24,10 +24,8 @@ enum class Method {
 struct GeolocatorConfig {
   Method method = Method::kJoint;
   CameraOrientation camera_orientation = CameraOrientation::kComposed;
-  int max_detections = 256;  ///< a frame; of more, the most confident are used
-  /// A box that comes nearer to the image's edge may be cut by it, so that its centre is not the object's;
-  /// 0 uses all.
-  double edge_margin_px = 2.0;
+  int max_detections = 256;     ///< per frame; of more, the most confident are used
+  double edge_margin_px = 2.0;  ///< boxes nearer to the image's edge are not used; 0 uses all
   CameraConfig camera;
   StateConfig state;
   ProjectorConfig projector;
@@ -35,7 +33,7 @@ struct GeolocatorConfig {
   JointTrackerConfig joint;
   std::vector<KnownPoint> known_points;  ///< of Method::kJoint
 
-  /// Every fault at once, named by its JSON path; empty where a Geolocator can be built.
+  /// Every fault at once, named by its path; empty where a Geolocator can be built.
   std::vector<std::string> problems() const;
 };
 

@@ -14,9 +14,9 @@
 namespace geoloc {
 
 struct ProjectorConfig {
-  double ground_height_above_home_m = 0.0;  ///< the horizontal plane that objects lie on
-  double max_range_m = 1000.0;              ///< from camera to ground; farther fixes are refused
-  double min_depression_deg = 5.0;          ///< rays that meet the ground at a smaller angle are refused
+  double ground_height_above_home_m = 0.0;
+  double max_range_m = 1000.0;
+  double min_depression_deg = 5.0;
 
   std::vector<std::string> problems() const;
 };

@@ -20,7 +20,9 @@ struct PositionSample {
   VehicleTime time;
   Geodetic position;
   double height_above_home_m = 0.0;
-  double height_msl_m = 0.0;  ///< for display and the metre scale only: metres off on real vehicles
+  /// Above mean sea level, where the autopilot tells it: for outputs and the scale of metres; metres off on
+  /// real vehicles.
+  std::optional<double> height_msl_m;
   std::optional<double> sigma_horizontal_m;  ///< 1-sigma that the receiver claims, where it does
 };
 

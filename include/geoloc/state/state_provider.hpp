@@ -55,6 +55,9 @@ class StateProvider {
 
   /// Set by the first position.
   const std::optional<LocalFrame>& local_frame() const { return frame_; }
+
+  /// Height of home above mean sea level, as of the first position; nullopt where that told none.
+  const std::optional<double>& home_height_msl_m() const { return home_height_msl_m_; }
   Counters counters() const;
 
  private:
@@ -62,6 +65,7 @@ class StateProvider {
 
   StateConfig config_;
   std::optional<LocalFrame> frame_;
+  std::optional<double> home_height_msl_m_;
   StateBuffer<EulerAngles> attitudes_;
   StateBuffer<LocalPosition> positions_;
   std::optional<double> sigma_horizontal_m_;

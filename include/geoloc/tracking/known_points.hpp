@@ -28,7 +28,7 @@ enum class KnownPointStatus {
 };
 
 /// What became of a known point.
-struct KnownPointReport {
+struct KnownPointMatch {
   KnownPointStatus status = KnownPointStatus::kNotCovered;
   std::uint64_t track_id = 0;  ///< of the object that it was matched to
 };

@@ -5,30 +5,12 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "geoloc/io/json/fields.hpp"
+#include <nlohmann/json.hpp>
 
-namespace geoloc {
-
-template <class Visitor>
-void visit_fields(Visitor& v, Geodetic& position) {
-  v.field("latitude_deg", position.latitude_deg, "deg, WGS84");
-  v.field("longitude_deg", position.longitude_deg, "deg, WGS84");
-}
-
-namespace io {
+namespace geoloc::io {
 namespace {
 
 using nlohmann::json;
-
-constexpr int kAnyClass = -1;
-
-template <class Visitor>
-void visit_point(Visitor& v, KnownPoint& point, int& class_id) {
-  v.field("name", point.name, "in messages");
-  visit_fields(v, point.position);
-  v.field("sigma_m", point.sigma_m, "m, of the survey, an axis");
-  v.field("class_id", class_id, "-1: any");
-}
 
 double number(const json& value, const char* what) {
   if (!value.is_number()) throw std::invalid_argument(std::string(what) + " must be a number");
@@ -87,34 +69,4 @@ std::vector<KnownPoint> read_known_points(const std::filesystem::path& file) {
   return parse_known_points({std::istreambuf_iterator<char>(stream), {}}, file.string());
 }
 
-nlohmann::ordered_json known_points_to_json(const std::vector<KnownPoint>& points) {
-  auto list = nlohmann::ordered_json::array();
-  for (KnownPoint point : points) {
-    int class_id = point.class_id.value_or(kAnyClass);
-    FieldWriter writer;
-    visit_point(writer, point, class_id);
-    list.push_back(writer.take());
-  }
-  return list;
-}
-
-void known_points_from_json(const json& list, std::vector<KnownPoint>& points,
-                            std::vector<std::string>& problems) {
-  if (!list.is_array()) {
-    problems.emplace_back("known_points must be a list");
-    return;
-  }
-  points.clear();
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    KnownPoint point;
-    int class_id = kAnyClass;
-    FieldReader reader(list[i], "known_points[" + std::to_string(i) + "]", problems);
-    visit_point(reader, point, class_id);
-    reader.refuse_unknown();
-    if (class_id != kAnyClass) point.class_id = class_id;
-    points.push_back(point);
-  }
-}
-
-}  // namespace io
-}  // namespace geoloc
+}  // namespace geoloc::io

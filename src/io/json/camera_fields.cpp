@@ -3,33 +3,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geoloc/io/json/fields.hpp"
+#include "camera/camera_fields.hpp"
+#include "io/json/field_reader.hpp"
+#include "io/json/field_writer.hpp"
+#include "settings/rules.hpp"
 
-namespace geoloc {
-
-template <class Visitor>
-void visit_fields(Visitor& v, CameraMount& mount) {
-  v.field("roll_deg", mount.roll_deg, "deg, applied last");
-  v.field("pitch_deg", mount.pitch_deg, "deg, -90 looks straight down");
-  v.field("yaw_deg", mount.yaw_deg, "deg, clockwise from the nose, applied first");
-  v.field("x_m", mount.x_m, "m, lever arm forward");
-  v.field("y_m", mount.y_m, "m, lever arm right");
-  v.field("z_m", mount.z_m, "m, lever arm down");
-}
-
-template <class Visitor>
-void visit_fields(Visitor& v, CameraConfig& camera) {
-  v.field("width", camera.intrinsics.width_px, "px");
-  v.field("height", camera.intrinsics.height_px, "px");
-  v.field("fx", camera.intrinsics.fx_px, "px");
-  v.field("fy", camera.intrinsics.fy_px, "px");
-  v.field("cx", camera.intrinsics.cx_px, "px, pixel centres at integers");
-  v.field("cy", camera.intrinsics.cy_px, "px");
-  v.field("distortion", camera.intrinsics.distortion, "k1 k2 p1 p2 k3 as OpenCV's");
-  v.section("mount", camera.mount);
-}
-
-namespace io {
+namespace geoloc::io {
 namespace {
 
 constexpr const char* kFieldOfView = "horizontal_fov_deg";
@@ -44,10 +23,11 @@ void apply_field_of_view(const nlohmann::json& object, const std::string& path, 
       return;
     }
   }
+  constexpr Range kRange = Range::open(0, 175);
   const auto& value = object[kFieldOfView];
   const double fov_deg = value.is_number() ? value.get<double>() : 0.0;
-  if (!(fov_deg > 0.0 && fov_deg < 175.0)) {
-    problems.push_back(name + " must lie in (0, 175)");
+  if (!kRange.contains(fov_deg)) {
+    problems.push_back(name + " must lie in " + to_text(kRange) + ", but is " + value.dump().substr(0, 60));
     return;
   }
   const auto distortion = camera.intrinsics.distortion;
@@ -59,10 +39,7 @@ void apply_field_of_view(const nlohmann::json& object, const std::string& path, 
 }  // namespace
 
 nlohmann::ordered_json camera_to_json(const CameraConfig& camera) {
-  FieldWriter writer;
-  CameraConfig copy = camera;  // one description serves reading and writing, so it takes mutable fields
-  visit_fields(writer, copy);
-  return writer.take();
+  return fields_to_json(camera);
 }
 
 void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict,
@@ -76,5 +53,4 @@ void camera_from_json(const nlohmann::json& object, const std::string& path, boo
   if (has_field_of_view) apply_field_of_view(object, path, camera, problems);
 }
 
-}  // namespace io
-}  // namespace geoloc
+}  // namespace geoloc::io

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "geoloc/geometry/problems.hpp"
 #include "geoloc/io/endpoint.hpp"
+#include "io/live_page/live_page_fields.hpp"
+#include "settings/field_checker.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -35,19 +36,7 @@ std::string tile_origin(const std::string& tile_url) {
 }
 
 std::vector<std::string> LivePageConfig::problems() const {
-  Problems found;
-  found.require(max_pages >= 1 && max_pages <= 1000, "live_page.max_pages must lie in [1, 1000]");
-  found.require(update_period_s >= 0.02 && update_period_s <= 10,
-                "live_page.update_period_s must lie in [0.02, 10]");
-  found.require(write_timeout_s >= 0.1 && write_timeout_s <= 60,
-                "live_page.write_timeout_s must lie in [0.1, 60]");
-  found.require(picture_width_px >= 160 && picture_width_px <= 3840,
-                "live_page.picture_width_px must lie in [160, 3840]");
-  found.require(picture_period_s >= 0.02 && picture_period_s <= 60,
-                "live_page.picture_period_s must lie in [0.02, 60]");
-  found.require(tile_url.empty() || !tile_origin(tile_url).empty(),
-                "live_page.tile_url must be http(s)://HOST/… with {z}, {x} and {y}");
-  return found.take();
+  return check_fields(*this);
 }
 
 }  // namespace geoloc::io

@@ -63,14 +63,18 @@ OutgoingFrame CameraWriter::information(MavAddress self, VehicleTime time, const
 OutgoingFrame CameraWriter::field_of_view(MavAddress self, const CameraView& view,
                                           const CameraIntrinsics& image) {
   constexpr std::int32_t kAtInfinity = std::numeric_limits<std::int32_t>::min();
+  constexpr std::int32_t kNotKnown = std::numeric_limits<std::int32_t>::max();
+  const auto altitude = [&](const std::optional<double>& height_msl_m) {
+    return height_msl_m ? scaled(*height_msl_m, 1e3) : kNotKnown;
+  };
   mavlink_camera_fov_status_t fields{};
   fields.time_boot_ms = boot_ms(view.time);
   fields.lat_camera = scaled(view.camera.latitude_deg, 1e7);
   fields.lon_camera = scaled(view.camera.longitude_deg, 1e7);
-  fields.alt_camera = scaled(view.camera_height_msl_m, 1e3);
+  fields.alt_camera = altitude(view.camera_height_msl_m);
   fields.lat_image = view.image_centre ? scaled(view.image_centre->latitude_deg, 1e7) : kAtInfinity;
   fields.lon_image = view.image_centre ? scaled(view.image_centre->longitude_deg, 1e7) : kAtInfinity;
-  fields.alt_image = view.image_centre ? scaled(view.ground_height_msl_m, 1e3) : kAtInfinity;
+  fields.alt_image = view.image_centre ? altitude(view.ground_height_msl_m) : kAtInfinity;
   const Eigen::Vector4f xyzw = view.ned_from_camera.coeffs().cast<float>();
   const Eigen::Vector4f wxyz(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   std::memcpy(fields.q, wxyz.data(), sizeof fields.q);
@@ -91,7 +95,7 @@ OutgoingFrame CameraWriter::tracking(MavAddress self, const CameraView& view, co
                             : CAMERA_TRACKING_STATUS_FLAGS_ACTIVE | CAMERA_TRACKING_STATUS_FLAGS_COASTING;
     fields.lat = scaled(target->position.latitude_deg, 1e7);
     fields.lon = scaled(target->position.longitude_deg, 1e7);
-    fields.alt = static_cast<float>(view.ground_height_msl_m);
+    fields.alt = view.ground_height_msl_m ? static_cast<float>(*view.ground_height_msl_m) : kUnknown;
     fields.h_acc = static_cast<float>(target->sigma_horizontal_m);
     fields.dist = static_cast<float>(target->distance_m);
   }

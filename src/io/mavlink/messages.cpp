@@ -66,7 +66,7 @@ Message decode_position(const Frame& frame) {
   const bool is_valid = std::abs(sample.position.latitude_deg) <= 90.0 &&
                         std::abs(sample.position.longitude_deg) <= 180.0 &&
                         std::abs(sample.height_above_home_m) <= kLargestHeight_m &&
-                        std::abs(sample.height_msl_m) <= kLargestHeight_m;
+                        std::abs(*sample.height_msl_m) <= kLargestHeight_m;
   if (!is_valid) return RefusedValues{};
   return sample;
 }

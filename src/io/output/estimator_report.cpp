@@ -36,7 +36,7 @@ EstimatorReport report_estimator(const Geolocator& geolocator) {
   report.counters = counters_of(geolocator);
   const auto& entries = geolocator.known_points();
   for (std::size_t i = 0; i < entries.size(); ++i) {
-    report.references.push_back(
+    report.known_points.push_back(
         {geolocator.config().known_points[i].name, entries[i].status, entries[i].track_id});
   }
   return report;

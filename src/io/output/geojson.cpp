@@ -31,14 +31,14 @@ const char* name_of(KnownPointStatus status) {
   return "";
 }
 
-ordered_json to_references(const std::vector<ReferenceReport>& reports) {
-  auto references = ordered_json::array();
-  for (const ReferenceReport& report : reports) {
-    ordered_json reference{{"id", report.name}, {"status", name_of(report.status)}};
-    if (report.status == KnownPointStatus::kMatched) reference["object"] = report.object_id;
-    references.push_back(std::move(reference));
+ordered_json known_points_to_json(const std::vector<KnownPointReport>& reports) {
+  auto points = ordered_json::array();
+  for (const KnownPointReport& report : reports) {
+    ordered_json point{{"id", report.name}, {"status", name_of(report.status)}};
+    if (report.status == KnownPointStatus::kMatched) point["object"] = report.object_id;
+    points.push_back(std::move(point));
   }
-  return references;
+  return points;
 }
 
 }  // namespace
@@ -52,7 +52,8 @@ std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const E
                           {"method", estimator.calibration ? "joint" : "paper"},
                           {"calibration", calibration_to_json(estimator.calibration)},
                           {"counters", counters_to_json(estimator.counters)}};
-  if (!estimator.references.empty()) collection["references"] = to_references(estimator.references);
+  if (!estimator.known_points.empty())
+    collection["known_points"] = known_points_to_json(estimator.known_points);
   collection["features"] = std::move(features);
   // Class names come from models and may hold anything; bytes that are not UTF-8 are replaced.
   return collection.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";

@@ -8,8 +8,8 @@
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/io/detection/yolo_decode.hpp"
 #include "geoloc/io/detection/yolo_detector.hpp"
-#include "geoloc/sim/camera_renderer.hpp"
-#include "geoloc/sim/visible_boxes.hpp"
+#include "geoloc/sim/world/camera_renderer.hpp"
+#include "geoloc/sim/world/visible_boxes.hpp"
 
 namespace geoloc::io {
 namespace {

@@ -9,6 +9,9 @@
 #include <random>
 #include <vector>
 
+#include "io/detection/detection_fields.hpp"
+#include "support/setting_bounds.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -179,6 +182,10 @@ TEST(DetectionConfig, TellsEveryFault) {
   config.tile_rows = 33;
   config.tile_overlap_px = -1;
   EXPECT_EQ(config.problems().size(), 9U);
+}
+
+TEST(DetectionConfig, KeepsEveryBoundThatItsDescriptionNames) {
+  EXPECT_GT(testing::expect_bounds_are_kept<DetectionConfig>(), 0U);
 }
 
 }  // namespace

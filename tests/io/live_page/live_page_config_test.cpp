@@ -6,6 +6,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "io/live_page/live_page_fields.hpp"
+#include "support/setting_bounds.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -41,6 +44,10 @@ TEST(LivePageConfig, NamesEveryFaultByItsPath) {
   config.picture_period_s = -1.0;
   config.tile_url = "file:///etc/passwd";
   EXPECT_EQ(config.problems().size(), 6U);
+}
+
+TEST(LivePageConfig, KeepsEveryBoundThatItsDescriptionNames) {
+  EXPECT_GT(testing::expect_bounds_are_kept<LivePageConfig>(), 0U);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class Comparison {
     EXPECT_EQ(found.time, boot_time(row_[1]));
     EXPECT_DOUBLE_EQ(found.position.latitude_deg * 1e7, std::stod(row_[2]));
     EXPECT_DOUBLE_EQ(found.position.longitude_deg * 1e7, std::stod(row_[3]));
-    EXPECT_DOUBLE_EQ(found.height_msl_m * 1e3, std::stod(row_[4]));
+    EXPECT_DOUBLE_EQ(*found.height_msl_m * 1e3, std::stod(row_[4]));
     EXPECT_DOUBLE_EQ(found.height_above_home_m * 1e3, std::stod(row_[5]));
   }
 

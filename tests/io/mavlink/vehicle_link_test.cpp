@@ -6,8 +6,10 @@
 #include <limits>
 
 #include "io/mavlink/collecting_sink.hpp"
+#include "io/mavlink/mavlink_fields.hpp"
 #include "io/mavlink/test_frames.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/setting_bounds.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -215,6 +217,10 @@ TEST(MavlinkConfig, NamesEveryFault) {
   config.link_timeout_s = std::numeric_limits<double>::infinity();
   EXPECT_EQ(config.problems().size(), 5U);
   EXPECT_THROW(VehicleLink{config}, std::invalid_argument);
+}
+
+TEST(MavlinkConfig, KeepsEveryBoundThatItsDescriptionNames) {
+  EXPECT_GT(testing::expect_bounds_are_kept<MavlinkConfig>(), 0U);
 }
 
 }  // namespace

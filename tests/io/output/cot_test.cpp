@@ -7,6 +7,8 @@
 #include "geoloc/io/output/cot_connection.hpp"
 #include "geoloc/io/output/cot_event.hpp"
 #include "geoloc/io/output/geoid.hpp"
+#include "io/output/cot_fields.hpp"
+#include "support/setting_bounds.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace geoloc::io {
@@ -59,6 +61,10 @@ TEST(CotConfig, NamesItsFaults) {
   config.error_probability = std::nan("");
   config.multicast_ttl = 256;
   EXPECT_EQ(config.problems().size(), 6U);
+}
+
+TEST(CotConfig, KeepsEveryBoundThatItsDescriptionNames) {
+  EXPECT_GT(testing::expect_bounds_are_kept<CotConfig>(), 0U);
 }
 
 /// A world on which the sea stands 30 m above the ellipsoid everywhere, in GeographicLib's format.

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "geoloc/io/json/fields.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 
 namespace geoloc::io {
@@ -18,8 +17,5 @@ nlohmann::ordered_json geolocator_to_json(const GeolocatorConfig& config);
 /// file.
 void geolocator_from_json(const nlohmann::json& object, GeolocatorConfig& config,
                           std::vector<std::string>& problems);
-
-/// Path, default and meaning of each setting, but for the camera's.
-std::vector<FieldLine> geolocator_field_lines();
 
 }  // namespace geoloc::io

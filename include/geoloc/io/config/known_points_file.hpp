@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -16,10 +15,5 @@ std::vector<KnownPoint> read_known_points(const std::filesystem::path& file);
 
 /// The same from the file's text; `name` stands for the file in messages.
 std::vector<KnownPoint> parse_known_points(const std::string& text, const std::string& name);
-
-/// As a setting: a list of objects. What is wrong in such a list is added to `problems`.
-nlohmann::ordered_json known_points_to_json(const std::vector<KnownPoint>& points);
-void known_points_from_json(const nlohmann::json& list, std::vector<KnownPoint>& points,
-                            std::vector<std::string>& problems);
 
 }  // namespace geoloc::io

@@ -9,15 +9,15 @@ namespace geoloc::io {
 
 /// "live_page" in the configuration file.
 struct LivePageConfig {
-  int max_pages = 64;             ///< open at a time; a further one is told so
-  double update_period_s = 0.1;   ///< a page gets news no more often
-  double write_timeout_s = 5.0;   ///< a page that takes nothing for so long is dropped
-  int picture_width_px = 960;     ///< the video's pictures are made so small for the page
-  double picture_period_s = 0.2;  ///< between pictures
-  std::string tile_url;           ///< of a background map, with {z} {x} {y}; empty: a metric grid alone
-  std::string tile_attribution;   ///< what its maker wants to be read beside it
+  int max_pages = 64;  ///< open at a time
+  double update_period_s = 0.1;
+  double write_timeout_s = 5.0;
+  int picture_width_px = 960;
+  double picture_period_s = 0.2;
+  std::string tile_url;          ///< of a background map, with {z} {x} {y}; empty: a metric grid alone
+  std::string tile_attribution;  ///< what its maker wants to be read beside it
 
-  /// Every fault, named by its JSON path.
+  /// Every fault, named by its path.
   std::vector<std::string> problems() const;
 };
 

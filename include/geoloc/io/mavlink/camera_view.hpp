@@ -26,9 +26,9 @@ struct CameraView {
   HostTime captured_at;
   VehicleTime time;
   Geodetic camera;
-  double camera_height_msl_m = 0.0;
-  std::optional<Geodetic> image_centre;  ///< on the ground; nullopt where it is not
-  double ground_height_msl_m = 0.0;
+  std::optional<double> camera_height_msl_m;  ///< nullopt where the autopilot tells none
+  std::optional<Geodetic> image_centre;       ///< on the ground; nullopt where it is not
+  std::optional<double> ground_height_msl_m;
   Eigen::Quaterniond ned_from_camera = Eigen::Quaterniond::Identity();  ///< camera: forward, right, down
   std::vector<CameraTarget> targets;
 };

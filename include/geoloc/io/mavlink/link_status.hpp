@@ -5,10 +5,10 @@
 #include <optional>
 
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/frame.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/stream_requests.hpp"
-#include "geoloc/state/clock_mapping.hpp"
 
 namespace geoloc::io {
 

@@ -6,17 +6,18 @@
 
 namespace geoloc::io {
 
+/// "mavlink" in the configuration file.
 struct MavlinkConfig {
-  int system_id = 0;               ///< of the vehicle, 1-255; 0: the first autopilot that is heard
-  int component_id = 191;          ///< our own, in the vehicle's system; 191 is that of an onboard computer
-  double attitude_rate_hz = 10.0;  ///< asked for, 1-50
-  double position_rate_hz = 10.0;  ///< asked for, 1-50
-  double link_timeout_s = 3.0;     ///< of silence; then the vehicle is asked anew for everything
-  bool camera = false;             ///< be a camera of the vehicle that tells where objects are
-  int camera_component_id = 105;   ///< 100-105 are cameras; the vehicle's own is mostly 100
-  bool status_text = false;        ///< tell ground stations of each object that is confirmed
+  int system_id = 0;       ///< of the vehicle; 0: the first autopilot that is heard
+  int component_id = 191;  ///< our own, in the vehicle's system; 191 is that of an onboard computer
+  double attitude_rate_hz = 10.0;
+  double position_rate_hz = 10.0;
+  double link_timeout_s = 3.0;
+  bool camera = false;            ///< be a camera of the vehicle that tells where objects are
+  int camera_component_id = 105;  ///< 100-105 are cameras; the vehicle's own is mostly 100
+  bool status_text = false;       ///< tell ground stations of each object that is confirmed
 
-  /// Every fault, named by its JSON path; empty where the settings can be used.
+  /// Every fault, named by its path; empty where the settings can be used.
   std::vector<std::string> problems() const;
 };
 

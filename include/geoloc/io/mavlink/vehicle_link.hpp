@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/commands.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
@@ -19,7 +20,6 @@
 #include "geoloc/io/mavlink/stream_requests.hpp"
 #include "geoloc/io/mavlink/telemetry_sink.hpp"
 #include "geoloc/state/boot_clock_monitor.hpp"
-#include "geoloc/state/clock_mapping.hpp"
 
 namespace geoloc::io {
 

@@ -28,7 +28,7 @@ struct RunCounters {
 };
 
 /// What became of a known point.
-struct ReferenceReport {
+struct KnownPointReport {
   std::string name;
   KnownPointStatus status = KnownPointStatus::kNotCovered;
   std::uint64_t object_id = 0;  ///< of a matched one
@@ -38,7 +38,7 @@ struct ReferenceReport {
 struct EstimatorReport {
   std::optional<Calibration> calibration;  ///< nullopt for a method that learns none
   RunCounters counters;
-  std::vector<ReferenceReport> references;  ///< in the order of the configuration
+  std::vector<KnownPointReport> known_points;  ///< in the order of the configuration
 };
 
 EstimatorReport report_estimator(const Geolocator& geolocator);

@@ -16,15 +16,15 @@ const char* to_string(RtspTransport transport);
 /// "video" in the configuration file.
 struct VideoConfig {
   RtspTransport transport = RtspTransport::kTcp;
-  double latency_s = 0.0;  ///< exposure to arrival; taken off where the stream does not tell the capture time
+  double latency_s = 0.0;  ///< exposure to arrival
   double reorder_s = 0.0;  ///< how long UDP packets out of order are waited for
-  double frame_timeout_s = 1.5;    ///< connect anew when no frame came for so long
-  double connect_timeout_s = 5.0;  ///< … and none since the connection began
-  double retry_min_s = 0.25;       ///< between attempts; doubles while they fail
+  double frame_timeout_s = 1.5;
+  double connect_timeout_s = 5.0;
+  double retry_min_s = 0.25;  ///< between attempts; doubles while they fail
   double retry_max_s = 0.5;
-  double max_megapixels = 36.0;  ///< larger pictures are refused (H.264 ends at 35.7)
+  double max_megapixels = 36.0;
 
-  /// Every fault, named by its JSON path.
+  /// Every fault, named by its path.
   std::vector<std::string> problems() const;
 };
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geoloc/sim/flight/flight.hpp"
+
+namespace geoloc::sim {
+
+// A recorded flight as it would have been under other circumstances. Truth and telemetry change together, so
+// that the autopilot's errors stay those that were recorded. Names stay, too: equal seeds draw equal errors.
+
+/// So much higher above the ground [m].
+Flight raised(const Flight& flight, double metres);
+
+/// The same path `factor` times as fast, with the tilts as recorded: a real vehicle would tilt more.
+/// Telemetry comes `factor` times as often. factor must be > 0.
+Flight at_speed(const Flight& flight, double factor);
+
+/// Attitude and position told rate_hz times a second. Where that is less often than recorded, the messages
+/// nearest to each due time are kept as they are. Where it is more often, they are made: the truth of the
+/// moment plus the recorded error, interpolated between messages. rate_hz must be > 0.
+Flight at_telemetry_rate(const Flight& flight, double rate_hz);
+
+}  // namespace geoloc::sim

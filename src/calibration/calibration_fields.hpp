@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geoloc/calibration/calibration.hpp"
+#include "settings/rules.hpp"
+
+namespace geoloc {
+
+template <class Visitor>
+void visit_fields(Visitor& v, CalibrationPrior& prior) {
+  constexpr Range kBoresight = Range::closed(-30, 30);
+  constexpr Range kSigma = Range::closed(0, 100);
+  v.field("boresight_x_deg", prior.boresight_x_deg, kBoresight, "deg",
+          "How far the camera is turned from its nominal mount about its own x axis (right)");
+  v.field("boresight_y_deg", prior.boresight_y_deg, kBoresight, "deg", "The same about its y axis (down)");
+  v.field("boresight_z_deg", prior.boresight_z_deg, kBoresight, "deg", "The same about its z axis (forward)");
+  v.field("latency_s", prior.latency_s, Range::closed(-5, 5), "s",
+          "A frame shows the world this long before its stamp");
+  v.field("height_m", prior.height_m, Range::closed(-100, 100), "m",
+          "The camera is this much higher above the ground than reported");
+  v.field("sigma_boresight_x_deg", prior.sigma_boresight_x_deg, kSigma, "deg",
+          "1-sigma of boresight_x_deg before the flight; 0 freezes it");
+  v.field("sigma_boresight_y_deg", prior.sigma_boresight_y_deg, kSigma, "deg",
+          "1-sigma of boresight_y_deg before the flight; 0 freezes it");
+  v.field("sigma_boresight_z_deg", prior.sigma_boresight_z_deg, kSigma, "deg",
+          "1-sigma of boresight_z_deg before the flight, the compass' constant error included; 0 freezes it");
+  v.field("sigma_latency_s", prior.sigma_latency_s, kSigma, "s",
+          "1-sigma of latency_s before the flight: exposure, encoder, link and clock together; 0 freezes it");
+  v.field("sigma_height_m", prior.sigma_height_m, kSigma, "m",
+          "1-sigma of height_m before the flight: the barometer at take-off, and the ground against it; 0 "
+          "freezes it");
+}
+
+}  // namespace geoloc

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geoloc/calibration/drift_config.hpp"
+#include "settings/rules.hpp"
+
+namespace geoloc {
+
+template <class Visitor>
+void visit_fields(Visitor& v, DriftConfig& drift) {
+  v.field("node_spacing_s", drift.node_spacing_s, Range::closed(0.5, 600), "s",
+          "Time between the nodes of the drift; it is interpolated linearly between them");
+  v.field("position_time_constant_s", drift.position_time_constant_s, Range::positive(), "s",
+          "Correlation time of the position's drift");
+  v.field("yaw_time_constant_s", drift.yaw_time_constant_s, Range::positive(), "s",
+          "Correlation time of the yaw's drift");
+  v.field("sigma_yaw_deg", drift.sigma_yaw_deg, Range::above(0, 30), "deg", "1-sigma of the yaw's drift");
+  v.field("max_nodes", drift.max_nodes, Range::closed(4, 500), "",
+          "Older nodes are frozen at their estimates");
+}
+
+}  // namespace geoloc

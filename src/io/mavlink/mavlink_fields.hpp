@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geoloc/io/mavlink/mavlink_config.hpp"
+#include "settings/rules.hpp"
+
+namespace geoloc::io {
+
+template <class Visitor>
+void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
+  constexpr Range kRate = Range::closed(1, 50);
+  v.field("system_id", mavlink.system_id, Range::closed(0, 255), "",
+          "MAVLink system of the vehicle; 0: the first autopilot heard");
+  v.field("component_id", mavlink.component_id, Range::closed(2, 255), "",
+          "Our own component in that system: 1 is the autopilot, 191 an onboard computer");
+  v.field("attitude_rate_hz", mavlink.attitude_rate_hz, kRate, "Hz", "Rate at which attitudes are requested");
+  v.field("position_rate_hz", mavlink.position_rate_hz, kRate, "Hz", "Rate at which positions are requested");
+  v.field("link_timeout_s", mavlink.link_timeout_s, Range::closed(0.5, 60), "s",
+          "After this silence everything is requested anew");
+  v.field("camera", mavlink.camera, Any{}, "",
+          "Be a camera component that tells ground stations where objects are (docs/outputs.md)");
+  v.field("camera_component_id", mavlink.camera_component_id, Range::closed(100, 105), "",
+          "Its component; the vehicle's own camera is mostly 100");
+  v.field("status_text", mavlink.status_text, Any{}, "", "Send STATUSTEXT for each object that is confirmed");
+}
+
+}  // namespace geoloc::io

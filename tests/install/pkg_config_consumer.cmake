@@ -1,0 +1,8 @@
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+set(consumer "${WORK_DIR}/pkg_config_consumer")
+file(REMOVE "${consumer}")
+set(ENV{PKG_CONFIG_PATH} "${tree}/${LIBRARY_FOLDER}/pkgconfig:$ENV{PKG_CONFIG_PATH}")
+run("${PKG_CONFIG}" --cflags --libs "geoloc >= 0.1")
+separate_arguments(flags UNIX_COMMAND "${CXX_FLAGS} ${output}")
+run("${CXX_COMPILER}" -std=c++17 "${CONSUMER_SOURCE_DIR}/main.cpp" ${flags} -o "${consumer}")
+run("${consumer}")
