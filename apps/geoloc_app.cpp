@@ -6,18 +6,21 @@
 #include <optional>
 
 #include "app/console.hpp"
+#include "app/live_inputs.hpp"
+#include "app/live_options.hpp"
 #include "app/live_run.hpp"
 #include "app/live_status.hpp"
-#include "app/options.hpp"
 #include "app/page_pictures.hpp"
 #include "app/recorder.hpp"
-#include "app/stop_signal.hpp"
 #include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
 #include "common/live_page_output.hpp"
+#include "common/objects_table.hpp"
+#include "common/output_options.hpp"
 #include "common/outputs.hpp"
 #include "common/periodic.hpp"
-#include "common/run_outputs.hpp"
+#include "common/run_record.hpp"
+#include "common/stop_signal.hpp"
 
 namespace {
 
@@ -89,7 +92,7 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
   LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.reports, program.clock,
               [&program](const PendingFrame& frame, bool is_located) {
-                program.outputs.frame(program.session, frame, is_located);
+                program.outputs.post_frame(program.session, frame, is_located);
               });
   const HostTime started_at = program.clock.now();
   Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at);
@@ -100,9 +103,9 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
       const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
       tell_all(program.outputs.take_messages(), console);
       console.update(state);
-      program.outputs.status(state);
+      program.outputs.post_status(state);
     }
-    if (files.is_due(now)) program.outputs.run(program.record());
+    if (files.is_due(now)) program.outputs.post_run(program.record());
   }
 }
 
@@ -138,7 +141,7 @@ int main(int argc, char** argv) {
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
   console.say(record.summary);
-  if (!options.outputs.has_objects()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
+  if (options.outputs.wants_table()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed();
   return has_failed ? kFailed : kDone;
 }

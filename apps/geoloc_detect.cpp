@@ -22,7 +22,7 @@ struct Options {
   std::optional<double> confidence;
   std::vector<int> tiles;
   std::vector<int> input_size_px;
-  DetectResults::Places places;
+  ResultWriter::Places places;
 };
 
 void add_options(CLI::App& program, Options& options) {
@@ -72,13 +72,13 @@ struct Program {
       refuse_problems(options.config_file, problems);
     }
     detector = io::open_detector(detector_files(options.detector), detection_of(options, config.detection));
-    results = std::make_unique<DetectResults>(options.places, inputs, detector->class_names());
+    results = std::make_unique<ResultWriter>(options.places, inputs, detector->class_names());
   }
 
   std::vector<DetectInput> inputs;
   LiveConfig config;
   std::unique_ptr<io::Detector> detector;
-  std::unique_ptr<DetectResults> results;
+  std::unique_ptr<ResultWriter> results;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 
 #include "common/command_line.hpp"
 #include "common/detector_options.hpp"
-#include "common/progress.hpp"
+#include "common/progress_line.hpp"
 #include "eval/experiment.hpp"
 #include "eval/report_folder.hpp"
 #include "eval/sweep.hpp"

@@ -7,15 +7,18 @@
 #include <thread>
 #include <utility>
 
-#include "app/stop_signal.hpp"
 #include "common/command_line.hpp"
 #include "common/estimation_config.hpp"
 #include "common/live_page_output.hpp"
+#include "common/objects_table.hpp"
+#include "common/output_options.hpp"
 #include "common/outputs.hpp"
-#include "common/progress.hpp"
+#include "common/prior_options.hpp"
+#include "common/progress_line.hpp"
 #include "common/replay.hpp"
 #include "common/replay_pace.hpp"
-#include "common/run_outputs.hpp"
+#include "common/run_record.hpp"
+#include "common/stop_signal.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
 
 namespace {
@@ -32,7 +35,7 @@ struct Options {
   bool print_config = false;
   std::optional<double> speed;
   PriorFiles priors;
-  OutputFiles outputs;
+  OutputOptions outputs;
 };
 
 /// The sections that only a live run has; a recording's config.json holds them too.
@@ -142,7 +145,7 @@ void replay_all(Program& program, const StopSignal& stop) {
   replay(program.recording.telemetry, program.recording.frames, program.session,
          [&](const PendingFrame& frame, bool is_located) {
            pace.wait_for(frame.captured_at, [&stop] { return stop.is_requested(); });
-           program.outputs.frame(program.session, frame, is_located);
+           program.outputs.post_frame(program.session, frame, is_located);
            progress.show(++done);
            return !stop.is_requested();
          });
@@ -180,7 +183,7 @@ int main(int argc, char** argv) {
       record_run(program->session, program->recording.class_names, program->truth, options.recording);
   program->outputs.finish(record);
   program->tell_all();
-  if (!options.outputs.has_objects()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
+  if (options.outputs.wants_table()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   std::fprintf(stderr, "%s\n", record.summary.c_str());
   keep_page(*program, stop);
   return program->outputs.has_failed() ? kFailed : kDone;

@@ -38,7 +38,4 @@ class VehicleReports {
   std::set<std::uint64_t> announced_;  // objects, by id
 };
 
-/// What the camera sees now, for the camera component. After a located frame.
-io::CameraView camera_view(const Geolocator& geolocator, HostTime captured_at);
-
 }  // namespace geoloc::apps

@@ -11,35 +11,35 @@ Outputs::Outputs(std::vector<std::string> class_names, const io::SinkRunnerConfi
 
 void Outputs::add(std::unique_ptr<io::Sink> sink) {
   const bool wants_frames = sink->wants_frames();
-  all_.push_back(std::make_unique<io::SinkRunner>(std::move(sink), config_, teller()));
-  if (wants_frames) streams_.push_back(all_.back().get());
+  sinks_.push_back(std::make_unique<io::SinkRunner>(std::move(sink), config_, teller()));
+  if (wants_frames) streams_.push_back(sinks_.back().get());
 }
 
 io::SinkRunner::Tell Outputs::teller() const {
   return [box = messages_](const std::string& message) { box->post(message); };
 }
 
-void Outputs::frame(const Session& session, const PendingFrame& frame, bool is_located) {
+void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool is_located) {
   if (streams_.empty()) return;
   const auto report = std::make_shared<const io::OutputFrame>(
       io::report_frame(session.geolocator(), is_located, frame.captured_at, frame.detections, class_names_));
   for (io::SinkRunner* sink : streams_) sink->post(report);
 }
 
-void Outputs::status(const io::LiveStatus& status) {
+void Outputs::post_status(const io::LiveStatus& status) {
   const auto shared = std::make_shared<const io::LiveStatus>(status);
   for (io::SinkRunner* sink : streams_) sink->post(shared);
 }
 
-void Outputs::run(io::RunRecord run) {
+void Outputs::post_run(io::RunRecord run) {
   const auto shared = std::make_shared<const io::RunRecord>(std::move(run));
-  for (const auto& sink : all_) sink->post(shared);
+  for (const auto& sink : sinks_) sink->post(shared);
 }
 
 void Outputs::finish(io::RunRecord final_run) {
-  run(std::move(final_run));
-  for (const auto& sink : all_) sink->close();
-  for (const auto& sink : all_) {
+  post_run(std::move(final_run));
+  for (const auto& sink : sinks_) sink->close();
+  for (const auto& sink : sinks_) {
     sink->finish();
     const auto stats = sink->stats();
     if (stats.dropped > 0)
@@ -50,7 +50,8 @@ void Outputs::finish(io::RunRecord final_run) {
 }
 
 bool Outputs::has_failed() const {
-  return std::any_of(all_.begin(), all_.end(), [](const auto& sink) { return sink->stats().has_failed(); });
+  return std::any_of(sinks_.begin(), sinks_.end(),
+                     [](const auto& sink) { return sink->stats().has_failed(); });
 }
 
 }  // namespace geoloc::apps

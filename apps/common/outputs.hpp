@@ -20,11 +20,11 @@ class Outputs {
   void add(std::unique_ptr<io::Sink> sink);
 
   /// After each frame that was given to the session; `is_located` is what it answered.
-  void frame(const Session& session, const PendingFrame& frame, bool is_located);
+  void post_frame(const Session& session, const PendingFrame& frame, bool is_located);
 
   /// Now and then; a live run only.
-  void status(const io::LiveStatus& status);
-  void run(io::RunRecord run);
+  void post_status(const io::LiveStatus& status);
+  void post_run(io::RunRecord run);
 
   /// After the last frame: gives them the final run and waits for all, for a bounded time.
   void finish(io::RunRecord run);
@@ -42,8 +42,8 @@ class Outputs {
   std::vector<std::string> class_names_;
   io::SinkRunnerConfig config_;
   std::shared_ptr<MessageBox> messages_ = std::make_shared<MessageBox>();  // stuck sinks outlive this object
-  std::vector<std::unique_ptr<io::SinkRunner>> all_;
-  std::vector<io::SinkRunner*> streams_;  // of all, those that want frames
+  std::vector<std::unique_ptr<io::SinkRunner>> sinks_;
+  std::vector<io::SinkRunner*> streams_;  // of the sinks, those that want frames
 };
 
 }  // namespace geoloc::apps

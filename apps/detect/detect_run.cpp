@@ -15,7 +15,7 @@ namespace geoloc::apps {
 
 using Clock = std::chrono::steady_clock;
 
-DetectRun::DetectRun(io::Detector& detector, DetectResults& results, const io::VideoConfig& video,
+DetectRun::DetectRun(io::Detector& detector, ResultWriter& results, const io::VideoConfig& video,
                      std::size_t inputs)
     : detector_(detector),
       results_(results),

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/stop_signal.hpp"
+#include "common/stop_signal.hpp"
 #include "detect/inputs.hpp"
-#include "detect/results.hpp"
+#include "detect/result_writer.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/video/video_config.hpp"
 
@@ -26,7 +26,7 @@ class DetectRun {
   };
 
   /// All must outlive the run. `inputs`: how many there will be.
-  DetectRun(io::Detector& detector, DetectResults& results, const io::VideoConfig& video, std::size_t inputs);
+  DetectRun(io::Detector& detector, ResultWriter& results, const io::VideoConfig& video, std::size_t inputs);
 
   /// Throws std::runtime_error where results cannot be written.
   void look_at(const DetectInput& input);
@@ -47,7 +47,7 @@ class DetectRun {
   void show_progress(const SeenPicture& picture);
 
   io::Detector& detector_;
-  DetectResults& results_;
+  ResultWriter& results_;
   io::VideoConfig video_;
   std::size_t inputs_;
   StopSignal stop_;

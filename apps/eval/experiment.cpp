@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "common/replay.hpp"
-#include "common/run_outputs.hpp"
+#include "common/run_score.hpp"
 #include "eval/parallel.hpp"
 #include "eval/survey.hpp"
 #include "geoloc/geometry/angles.hpp"
@@ -98,7 +98,7 @@ RunResult run_method(const SimulatedRun& run, const Contender& contender, Estima
   result.contender = contender;
   const LeftOut told = objects_of_known_points(session, survey);
   result.score = score_run(session, survey.others, told);
-  result.nees = consistency_of_run(session, survey.others, result.score, told);
+  result.nees = mean_nees_of_run(session, survey.others, result.score, told);
   result.known_points_used = known_points_used(session);
   result.calibration = calibration_error(session, run.settings, run.flight);
   return result;

@@ -8,8 +8,8 @@
 #include <iterator>
 
 #include "eval/chart.hpp"
+#include "eval/experiment_report.hpp"
 #include "eval/html_table.hpp"
-#include "eval/report.hpp"
 #include "eval/run_charts.hpp"
 #include "eval/sweep_report.hpp"
 #include "geoloc/io/output/markup.hpp"

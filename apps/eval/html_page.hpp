@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "eval/report_folder.hpp"
+#include "eval/eval_results.hpp"
 
 namespace geoloc::apps {
 

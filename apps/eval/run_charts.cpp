@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "eval/report.hpp"
+#include "eval/experiment_report.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -20,28 +20,12 @@ ChartSeries& series_of_set(Chart& chart, const std::string& set) {
   return chart.series.back();
 }
 
-bool is_same_run(const RunResult& a, const RunResult& b) {
-  return a.flight == b.flight && a.scenario == b.scenario && a.seed == b.seed;
-}
-
 /// Of stock_path1: 1.
 double path_number(const std::string& flight) {
   return flight.back() - '0';
 }
 
 }  // namespace
-
-std::vector<RunPair> pairs_of(const std::vector<RunResult>& runs) {
-  std::vector<RunPair> pairs;
-  for (const RunResult& paper : runs) {
-    if (paper.contender.method != Method::kPaper) continue;
-    const auto joint = std::find_if(runs.begin(), runs.end(), [&](const RunResult& run) {
-      return run.contender == Contender{Method::kJoint, 0} && is_same_run(run, paper);
-    });
-    if (joint != runs.end()) pairs.push_back({&paper, &*joint});
-  }
-  return pairs;
-}
 
 Chart methods_chart(const std::vector<RunResult>& runs) {
   Chart chart;
@@ -108,6 +92,22 @@ Chart consistency_chart(const std::vector<RunResult>& runs) {
         .points.push_back({path_number(run.flight) + (set == "stock" ? -kAside : kAside), run.nees, 0.0});
   }
   return chart;
+}
+
+std::vector<NamedChart> run_charts(const EvalResults& results) {
+  std::vector<RunResult> of_latencies = results.runs;
+  for (const SweepResult& result : results.sweeps) {
+    if (result.sweep.name != "latency") continue;
+    for (const SweepPoint& point : result.points)
+      of_latencies.insert(of_latencies.end(), point.runs.begin(), point.runs.end());
+  }
+  std::vector<NamedChart> charts{{"methods", methods_chart(results.runs)},
+                                 {"boresight", boresight_chart(results.runs)},
+                                 {"latency", latency_chart(of_latencies)},
+                                 {"consistency", consistency_chart(results.runs)}};
+  const auto is_empty = [](const NamedChart& named) { return named.chart.series.empty(); };
+  charts.erase(std::remove_if(charts.begin(), charts.end(), is_empty), charts.end());
+  return charts;
 }
 
 }  // namespace geoloc::apps

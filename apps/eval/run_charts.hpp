@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "eval/chart.hpp"
+#include "eval/eval_results.hpp"
 #include "eval/experiment.hpp"
 
 namespace geoloc::apps {
@@ -20,14 +22,12 @@ Chart latency_chart(const std::vector<RunResult>& runs);
 /// NEES of the joint method on each path.
 Chart consistency_chart(const std::vector<RunResult>& runs);
 
-/// A run by both methods.
-struct RunPair {
-  const RunResult* paper = nullptr;
-  const RunResult* joint = nullptr;
-  double rmse_difference_m() const { return joint->score.rmse_m - paper->score.rmse_m; }
+struct NamedChart {
+  std::string name;
+  Chart chart;
 };
 
-/// All runs that both methods made.
-std::vector<RunPair> pairs_of(const std::vector<RunResult>& runs);
+/// What the runs of the table show, and those of the latency's sweep; without what there is no data for.
+std::vector<NamedChart> run_charts(const EvalResults& results);
 
 }  // namespace geoloc::apps

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "eval/report.hpp"
+#include "eval/experiment_report.hpp"
 
 namespace geoloc::apps {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "eval/chart.hpp"
-#include "eval/sweep.hpp"
+#include "eval/sweep_run.hpp"
 
 namespace geoloc::apps {
 

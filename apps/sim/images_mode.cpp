@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "images_mode.hpp"
+#include "sim/images_mode.hpp"
 
 #include <cstdio>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
 
-#include "app/stop_signal.hpp"
+#include "common/stop_signal.hpp"
 
 namespace geoloc::sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live_mode.hpp"
+#include "sim/live_mode.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "app/stop_signal.hpp"
+#include "common/stop_signal.hpp"
 #include "geoloc/io/atomic_file.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "geoloc/sim/live/flight_camera.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "live_mode.hpp"
+#include "sim/live_options.hpp"
 
 namespace geoloc::sim {
 

@@ -2,7 +2,7 @@
 // Stands in for live_mode.cpp where GStreamer's RTSP server was not found at configure time.
 #include <cstdio>
 
-#include "live_mode.hpp"
+#include "sim/live_mode.hpp"
 
 namespace geoloc::sim {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record_mode.hpp"
+#include "sim/record_mode.hpp"
 
 #include <cstdio>
 #include <filesystem>

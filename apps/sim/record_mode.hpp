@@ -6,7 +6,7 @@
 #include <string>
 
 #include "geoloc/sim/flight/simulated_detector.hpp"
-#include "run_options.hpp"
+#include "sim/run_options.hpp"
 
 namespace geoloc::sim {
 

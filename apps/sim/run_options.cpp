@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "run_options.hpp"
+#include "sim/run_options.hpp"
 
 #include <filesystem>
 #include <utility>

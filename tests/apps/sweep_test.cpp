@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "eval/sweep_report.hpp"
+#include "eval/sweep_run.hpp"
 
 namespace geoloc::apps {
 namespace {

@@ -28,7 +28,7 @@ struct SeenPicture {
 /// Where geoloc_detect leaves what it finds: lines of JSON, pictures and videos with boxes drawn into them,
 /// or, without either, lines for a person on stdout. A JSON file or a video that is not finished is not left
 /// behind. Throws std::runtime_error naming the file that cannot be written.
-class DetectResults {
+class ResultWriter {
  public:
   struct Places {
     std::string json;  ///< a file, "-" for stdout, or empty
@@ -36,7 +36,7 @@ class DetectResults {
   };
 
   /// Throws also where drawn pictures would take the place of inputs or of one another.
-  DetectResults(Places places, const std::vector<DetectInput>& inputs, std::vector<std::string> class_names);
+  ResultWriter(Places places, const std::vector<DetectInput>& inputs, std::vector<std::string> class_names);
 
   /// Draws into the picture.
   void add(SeenPicture& picture, const std::vector<Detection>& detections);

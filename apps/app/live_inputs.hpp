@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
-#include <string>
 #include <vector>
 
-#include "app/live_config.hpp"
-#include "common/command_line.hpp"
-#include "common/detector_options.hpp"
-#include "common/run_outputs.hpp"
+#include "app/live_options.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/host_clock.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
@@ -17,27 +12,6 @@
 #include "geoloc/io/video/video_source.hpp"
 
 namespace geoloc::apps {
-
-/// geoloc_app's command line.
-struct LiveOptions {
-  std::string udp = "14550";
-  std::string rtsp_url;
-  std::string video_file;
-  std::string config_file;
-  std::string method;
-  DetectorOptions detector;
-  std::string record_folder;
-  std::string truth_file;
-  bool print_config = false;
-  bool print_settings = false;
-  PriorFiles priors;
-  OutputFiles outputs;
-};
-
-void add_live_options(CLI::App& program, LiveOptions& options);
-
-/// The configuration file under the options. Throws std::runtime_error listing every fault.
-LiveConfig load_config(const LiveOptions& options);
 
 /// What a run is made of.
 struct LiveInputs {

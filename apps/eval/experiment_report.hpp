@@ -18,7 +18,7 @@ std::string set_of(const std::string& flight);
 std::string table_cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
                        const Contender& contender);
 
-/// Means over the runs of one set of flights (stock, gnss), method and, unless nullopt, seed.
+/// Means over the runs of one set of flights (stock, gnss) and one method.
 struct Summary {
   std::string set;
   Contender contender;
@@ -44,5 +44,15 @@ std::string to_markdown(const std::vector<RunResult>& results);
 
 /// Every run and every summary: "summaries", "runs".
 nlohmann::ordered_json to_json(const std::vector<RunResult>& results);
+
+/// A run by both methods.
+struct RunPair {
+  const RunResult* paper = nullptr;
+  const RunResult* joint = nullptr;
+  double rmse_difference_m() const { return joint->score.rmse_m - paper->score.rmse_m; }
+};
+
+/// All runs that both methods made.
+std::vector<RunPair> pairs_of(const std::vector<RunResult>& runs);
 
 }  // namespace geoloc::apps

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/rendered.hpp"
+#include "eval/rendered_run.hpp"
 
 #include <algorithm>
 #include <mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/report.hpp"
+#include "eval/experiment_report.hpp"
 
 #include <fmt/format.h>
 
@@ -49,6 +49,10 @@ std::vector<std::string> flights_of(const std::vector<RunResult>& results, const
       flights.push_back(run.flight);
   }
   return flights;
+}
+
+bool is_same_run(const RunResult& a, const RunResult& b) {
+  return a.flight == b.flight && a.scenario == b.scenario && a.seed == b.seed;
 }
 
 }  // namespace
@@ -159,6 +163,18 @@ nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
                          {"worst_error_in_sigmas", s.worst_sigmas}});
   }
   return {{"summaries", summaries}, {"runs", runs}};
+}
+
+std::vector<RunPair> pairs_of(const std::vector<RunResult>& runs) {
+  std::vector<RunPair> pairs;
+  for (const RunResult& paper : runs) {
+    if (paper.contender.method != Method::kPaper) continue;
+    const auto joint = std::find_if(runs.begin(), runs.end(), [&](const RunResult& run) {
+      return run.contender == Contender{Method::kJoint, 0} && is_same_run(run, paper);
+    });
+    if (joint != runs.end()) pairs.push_back({&paper, &*joint});
+  }
+  return pairs;
 }
 
 }  // namespace geoloc::apps

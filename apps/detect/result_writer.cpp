@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "detect/results.hpp"
+#include "detect/result_writer.hpp"
 
 #include <fmt/format.h>
 
@@ -63,8 +63,8 @@ std::string line_for_a_person(const SeenPicture& picture, const std::vector<Dete
 
 }  // namespace
 
-DetectResults::DetectResults(Places places, const std::vector<DetectInput>& inputs,
-                             std::vector<std::string> class_names)
+ResultWriter::ResultWriter(Places places, const std::vector<DetectInput>& inputs,
+                           std::vector<std::string> class_names)
     : places_(std::move(places)), class_names_(std::move(class_names)) {
   if (!places_.draw.empty()) {
     check_drawn_names(places_.draw, inputs);
@@ -80,7 +80,7 @@ DetectResults::DetectResults(Places places, const std::vector<DetectInput>& inpu
   }
 }
 
-void DetectResults::add(SeenPicture& picture, const std::vector<Detection>& detections) {
+void ResultWriter::add(SeenPicture& picture, const std::vector<Detection>& detections) {
   if (!places_.json.empty()) {
     write_json(picture, detections);
   } else if (places_.draw.empty()) {
@@ -95,7 +95,7 @@ void DetectResults::add(SeenPicture& picture, const std::vector<Detection>& dete
   }
 }
 
-void DetectResults::write_json(const SeenPicture& picture, const std::vector<Detection>& detections) {
+void ResultWriter::write_json(const SeenPicture& picture, const std::vector<Detection>& detections) {
   nlohmann::ordered_json line{{"image", picture.file.string()}};
   if (picture.frame) {
     line["frame"] = *picture.frame;
@@ -118,7 +118,7 @@ void DetectResults::write_json(const SeenPicture& picture, const std::vector<Det
   if (!json_) io::fail_to_write(places_.json, errno);
 }
 
-void DetectResults::draw(const SeenPicture& picture) {
+void ResultWriter::draw(const SeenPicture& picture) {
   const fs::path file = fs::path(places_.draw) / drawn_name(picture.file, false);
   std::vector<unsigned char> bytes;
   if (!cv::imencode(is_jpeg(file) ? ".jpg" : ".png", picture.bgr, bytes))
@@ -126,7 +126,7 @@ void DetectResults::draw(const SeenPicture& picture) {
   io::write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-void DetectResults::draw_frame(const SeenPicture& picture) {
+void ResultWriter::draw_frame(const SeenPicture& picture) {
   if (!video_) {
     video_ = std::make_unique<io::VideoFile>(fs::path(places_.draw) / drawn_name(picture.file, true),
                                              picture.bgr.size());
@@ -134,12 +134,12 @@ void DetectResults::draw_frame(const SeenPicture& picture) {
   video_->add(picture.bgr, from_seconds(picture.time_s));
 }
 
-void DetectResults::finish_video() {
+void ResultWriter::finish_video() {
   if (video_) video_->finish();
   video_.reset();
 }
 
-void DetectResults::finish() {
+void ResultWriter::finish() {
   if (!partial_json_) return;
   errno = 0;
   json_.close();

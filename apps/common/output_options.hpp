@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace geoloc::apps {
 
 /// The outputs that a command line names; empty ones are left out.
-struct OutputFiles {
+struct OutputOptions {
   std::string objects;             ///< GeoJSON
   std::string raw;                 ///< CSV of every located detection
   std::string picture;             ///< SVG
@@ -19,11 +20,15 @@ struct OutputFiles {
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output
   std::vector<std::string> cot;    ///< endpoints: udp://HOST:PORT, tcp://HOST:PORT
 
-  /// Whether standard output is taken, or a file holds what is otherwise printed there.
-  bool has_objects() const;
+  /// Whether the objects go to standard output as a table: no file holds them, and the output is free.
+  bool wants_table() const;
 };
 
-/// Throws std::invalid_argument for what is none.
-void add_sinks(const OutputFiles& files, const EstimationConfig& config, Outputs& outputs);
+/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http.
+void add_output_options(CLI::App& program, OutputOptions& options);
+
+/// A sink for each, but for the live page (open_live_page()). Throws std::invalid_argument for a target that
+/// is none.
+void add_sinks(const OutputOptions& options, const EstimationConfig& config, Outputs& outputs);
 
 }  // namespace geoloc::apps

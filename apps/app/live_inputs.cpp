@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/live_inputs.hpp"
+
+#include <stdexcept>
+
+#include "geoloc/io/recording/recording_reader.hpp"
+#include "geoloc/io/video/file_source.hpp"
+#include "geoloc/io/video/rtsp_source.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, const io::VideoConfig& config,
+                                                   const io::HostClock& clock) {
+  if (options.rtsp_url.empty() == options.video_file.empty()) {
+    throw std::invalid_argument("give one of --rtsp URL and --video FILE");
+  }
+  if (!options.rtsp_url.empty()) return std::make_unique<io::RtspSource>(options.rtsp_url, config, clock);
+  return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock);
+}
+
+}  // namespace
+
+LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
+  LiveInputs inputs;
+  std::string faults;
+  const auto attempt = [&faults](const auto& step) {
+    try {
+      step();
+    } catch (const std::exception& error) {
+      faults += (faults.empty() ? "" : "\n") + std::string(error.what());
+    }
+  };
+  attempt([&] { inputs.config = load_config(options); });
+  attempt([&] {
+    if (!options.truth_file.empty()) inputs.truth = io::read_truth(options.truth_file);
+  });
+  attempt([&] {
+    inputs.detector = io::open_detector(detector_files(options.detector), inputs.config.detection);
+  });
+  attempt([&] { inputs.socket = std::make_unique<io::UdpSocket>(io::parse_udp_endpoint(options.udp)); });
+  attempt([&] { inputs.video = make_video_source(options, inputs.config.video, clock); });
+  if (!faults.empty()) throw std::runtime_error(faults);
+  return inputs;
+}
+
+}  // namespace geoloc::apps

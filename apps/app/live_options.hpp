@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "app/live_config.hpp"
+#include "common/detector_options.hpp"
+#include "common/output_options.hpp"
+#include "common/prior_options.hpp"
+
+namespace geoloc::apps {
+
+/// geoloc_app's command line.
+struct LiveOptions {
+  std::string udp = "14550";
+  std::string rtsp_url;
+  std::string video_file;
+  std::string config_file;
+  std::string method;
+  DetectorOptions detector;
+  std::string record_folder;
+  std::string truth_file;
+  bool print_config = false;
+  bool print_settings = false;
+  PriorFiles priors;
+  OutputOptions outputs;
+};
+
+void add_live_options(CLI::App& program, LiveOptions& options);
+
+/// The configuration file under the options. Throws std::runtime_error listing every fault.
+LiveConfig load_config(const LiveOptions& options);
+
+}  // namespace geoloc::apps

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/output_options.hpp"
+
+#include <algorithm>
+
+#include "geoloc/io/output/cot_sink.hpp"
+#include "geoloc/io/output/csv.hpp"
+#include "geoloc/io/output/file_sink.hpp"
+#include "geoloc/io/output/geojson.hpp"
+#include "geoloc/io/output/json_lines_sink.hpp"
+#include "geoloc/io/output/kml.hpp"
+#include "geoloc/io/output/raw_fixes.hpp"
+#include "geoloc/io/output/run_picture.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+std::string raw_csv(const io::RunRecord& run) {
+  return io::raw_fixes_to_csv(run.raw_fixes, run.local_frame.value_or(LocalFrame({0.0, 0.0})));
+}
+
+}  // namespace
+
+bool OutputOptions::wants_table() const {
+  return objects.empty() && std::find(jsonl.begin(), jsonl.end(), "-") == jsonl.end();
+}
+
+void add_output_options(CLI::App& program, OutputOptions& options) {
+  const auto add = [&program](const char* name, std::string& file, const char* help) {
+    program.add_option(name, file, help)->type_name("FILE")->group("Outputs");
+  };
+  add("--out", options.objects, "Confirmed objects, GeoJSON");
+  add("--csv", options.csv, "Confirmed objects, CSV");
+  add("--kml", options.kml, "Objects, ellipses and trajectory for Google Earth, KML");
+  const auto add_several = [&program](const char* name, std::vector<std::string>& targets, const char* help,
+                                      const char* type) {
+    program.add_option(name, targets, help)->type_name(type)->allow_extra_args(false)->group("Outputs");
+  };
+  add_several("--jsonl", options.jsonl, "Frames and objects as they come, JSON Lines; - is stdout", "FILE");
+  add_several("--cot", options.cot,
+              "Confirmed objects to TAK: udp://HOST:PORT or tcp://HOST:PORT; ATAK: udp://239.2.3.1:6969",
+              "URL");
+  add("--raw", options.raw, "Every located detection, CSV");
+  add("--picture", options.picture, "Map of the run, SVG");
+  program
+      .add_option("--http", options.http,
+                  "A page that shows the run, for browsers: PORT for those of this computer, or HOST:PORT")
+      ->type_name("[HOST:]PORT")
+      ->group("Outputs");
+}
+
+void add_sinks(const OutputOptions& options, const EstimationConfig& config, Outputs& outputs) {
+  const auto add = [&outputs](const char* option, const std::string& file, io::FileSink::Render render) {
+    if (!file.empty()) outputs.add(std::make_unique<io::FileSink>(option, file, std::move(render)));
+  };
+  add("--out", options.objects,
+      [](const io::RunRecord& run) { return io::objects_to_geojson(run.objects, run.estimator); });
+  add("--raw", options.raw, raw_csv);
+  add("--csv", options.csv, [](const io::RunRecord& run) { return io::objects_to_csv(run.objects); });
+  add("--kml", options.kml, io::run_to_kml);
+  for (const std::string& target : options.jsonl) outputs.add(std::make_unique<io::JsonLinesSink>(target));
+  for (const std::string& target : options.cot)
+    outputs.add(std::make_unique<io::CotSink>(target, config.cot, outputs.teller()));
+  add("--picture", options.picture, [](const io::RunRecord& run) { return io::to_svg(io::picture_of(run)); });
+}
+
+}  // namespace geoloc::apps

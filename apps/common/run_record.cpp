@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/run_record.hpp"
+
+#include <fmt/format.h>
+
+#include "common/run_score.hpp"
+#include "geoloc/io/output/object_report.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+/// What became of the known points, where it is not what the user expects.
+std::string unused_known_points(const Geolocator& geolocator) {
+  std::string lines;
+  const auto& entries = geolocator.known_points();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const char* reason = nullptr;
+    if (entries[i].status == KnownPointStatus::kNotCovered)
+      reason = "the camera did not look there long enough";
+    if (entries[i].status == KnownPointStatus::kNoObject)
+      reason = "no object there agrees with it and with the other references: check its coordinates";
+    if (entries[i].status == KnownPointStatus::kAmbiguous) reason = "several objects may be the one";
+    if (reason != nullptr)
+      lines += fmt::format("\nreference {} not used: {}", geolocator.config().known_points[i].name, reason);
+  }
+  return lines;
+}
+
+}  // namespace
+
+io::RunRecord record_run(const Session& session, const std::vector<std::string>& class_names,
+                         const std::vector<io::TrueTarget>& truth, const std::string& title) {
+  const Geolocator& geolocator = session.geolocator();
+  io::RunRecord run;
+  run.title = title;
+  run.summary = summarize_run(session, truth);
+  run.objects = io::report_objects(geolocator, class_names);
+  run.estimator = io::report_estimator(geolocator);
+  run.local_frame = geolocator.local_frame();
+  run.ground_height_above_home_m = geolocator.projector().config().ground_height_above_home_m;
+  run.raw_fixes = session.history().raw_fixes();
+  run.trajectory = session.history().trajectory();
+  run.targets = targets_in_enu(truth, geolocator);
+  return run;
+}
+
+std::string summarize_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
+  const std::string unused = unused_known_points(session.geolocator());
+  const std::uint64_t frames = session.frames();
+  if (truth.empty()) {
+    return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",
+                       io::report_objects(session.geolocator(), {}).size(),
+                       session.history().raw_fixes().size(), frames, session.frames_unusable()) +
+           unused;
+  }
+  const Score score = score_run(session, truth);
+  return fmt::format(
+             "found {} / {}, RMSE {:.3f} m (relative {:.3f} m), extra {}, merged pairs {}, {} frames ({} "
+             "without "
+             "vehicle state)",
+             score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
+             frames, session.frames_unusable()) +
+         unused;
+}
+
+}  // namespace geoloc::apps

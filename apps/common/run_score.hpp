@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/session.hpp"
+#include "geoloc/evaluation/score.hpp"
+#include "geoloc/io/recording/recording.hpp"
+
+namespace geoloc::apps {
+
+/// Objects that are not scored, by id: those whose places the run was told.
+using LeftOut = std::vector<std::uint64_t>;
+
+/// The true targets in the run's own frame; empty where no position ever came.
+std::vector<Eigen::Vector2d> targets_in_enu(const std::vector<io::TrueTarget>& truth,
+                                            const Geolocator& geolocator);
+
+/// The run against the true targets.
+Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth,
+                const LeftOut& left_out = {});
+
+/// Mean NEES of the objects that `score` matched (score.hpp); 2 where the stated covariances are right.
+double mean_nees_of_run(const Session& session, const std::vector<io::TrueTarget>& truth, const Score& score,
+                        const LeftOut& left_out = {});
+
+}  // namespace geoloc::apps
