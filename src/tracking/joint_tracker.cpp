@@ -6,6 +6,7 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "tracking/gaussian.hpp"
 #include "tracking/identity.hpp"
 #include "tracking/visibility.hpp"
 

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
+#include "projection/camera_pose.hpp"
 #include "support/allocation_counter.hpp"
 
 namespace geoloc {
