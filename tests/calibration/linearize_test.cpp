@@ -5,6 +5,7 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
+#include "geoloc/projection/projector.hpp"
 #include "projection/camera_pose.hpp"
 
 namespace geoloc {
