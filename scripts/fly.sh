@@ -16,9 +16,15 @@ mkdir -p "$out"
 udp_port=$((20000 + RANDOM % 10000)) rtsp_port=$((30000 + RANDOM % 10000))
 
 sim= app=
+# Both get the time to write what they have, unless the flight has failed anyway.
+patience_us=10000000
 stop_all() {
+  local until=$((${EPOCHREALTIME/[^0-9]/} + patience_us))
   for child in $app $sim; do kill -INT "$child" 2>/dev/null || true; done
-  for _ in $(seq 15); do kill -0 $app $sim 2>/dev/null || return 0; sleep 0.1; done
+  while [ "${EPOCHREALTIME/[^0-9]/}" -lt "$until" ]; do
+    kill -0 $app $sim 2>/dev/null || return 0
+    sleep 0.05
+  done
   kill -KILL $app $sim 2>/dev/null || true
 }
 trap stop_all EXIT
