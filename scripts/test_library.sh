@@ -17,7 +17,7 @@ for hidden in Boost fmt nlohmann_json OpenCV OpenVINO PkgConfig Python3 yaml-cpp
 done
 export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true
 say "Configuring ($build)"
-rm -f "$build/CMakeCache.txt"
+rm -rf "$build/CMakeCache.txt" "$build/tests/install"
 cmake -S . -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${options[@]}" --no-warn-unused-cli "$@" \
   >build/configure_library.log 2>&1 || { cat build/configure_library.log; exit 1; }
 if grep -iE '^[a-z_]*(opencv|gstreamer|rtsp)' "$build/CMakeCache.txt" | grep -v '^CMAKE_DISABLE_FIND_PACKAGE_'; then
@@ -28,7 +28,7 @@ say "Building ($build)"
 cmake --build "$build"
 say "Testing ($build)"
 ctest --test-dir "$build" --output-on-failure --timeout 300 -j "$(nproc)"
-if ! ctest --test-dir "$build" -N | grep -q 'install\.pkg_config_consumer'; then
+if [ ! -x "$build/tests/install/pkg_config_consumer" ]; then
   echo "No consumer was built by pkg-config" >&2
   exit 1
 fi

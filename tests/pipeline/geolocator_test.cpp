@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/state/state_provider.hpp"
 #include "support/allocation_counter.hpp"
 
 namespace geoloc {

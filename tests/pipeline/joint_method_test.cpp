@@ -436,7 +436,7 @@ TEST(JointKnownPoints, TakeTheConstantErrorOutOfAllObjects) {
     }
     EXPECT_LT(farthest_from(places, flight), 0.05);
     ASSERT_EQ(flight.geolocator().known_points().size(), 1U);
-    const KnownPointReport& entry = flight.geolocator().known_points()[0];
+    const KnownPointMatch& entry = flight.geolocator().known_points()[0];
     EXPECT_EQ(entry.status, KnownPointStatus::kMatched);
     for (const Track& track : flight.tracks()) {
       const double sigma_m = std::sqrt(0.5 * track.position_in_enu.covariance.trace());

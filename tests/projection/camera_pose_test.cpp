@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/attitude.hpp"
 #include "geoloc/projection/projector.hpp"
 
 namespace geoloc {

