@@ -76,14 +76,14 @@ struct AxisFilter {
 
 TEST(MovingObjects, AreEstimatedByTheTextbooksKalmanFilter) {
   GeolocatorConfig config = noisy_by_the_detector_alone();
-  config.joint.clutter_per_frame = 300.0;  // so that no look says more than is believed of one
+  config.joint.clutter_per_frame = 1000.0;  // so that no look says more than is believed of one
   config.joint.confirm_probability = 1.0 - 1e-9;
   const MovingConfig& moving = config.joint.moving;
   NadirFlight flight = watching(config);
   std::mt19937 random(3);
   std::normal_distribution<double> noise_m(0.0, 1.5 * kMetresPerPixel);
   const double variance = std::pow(1.5 * kMetresPerPixel, 2);
-  const double clutter = 300.0 / (1280.0 * 720.0 * kMetresPerPixel * kMetresPerPixel);
+  const double clutter = 1000.0 / (1280.0 * 720.0 * kMetresPerPixel * kMetresPerPixel);
   std::optional<std::array<AxisFilter, 2>> expected;
   double before_s = 0.0, expected_log_odds = std::log(0.3 / 0.7);
   for (const double time_s : {0.5, 0.6, 0.75, 0.8, 1.1, 1.2, 2.0, 2.1, 2.15}) {
@@ -210,7 +210,8 @@ TEST(MovingObjects, ThatPassEachOtherStayTwo) {
   NadirFlight flight = watching(config);
   for (int frame = 0; frame < 40; ++frame) {  // by turns, so that no frame shows both
     const double ahead_m = 0.2 * (frame - 20);
-    flight.process(0.5 + 0.1 * frame, {frame % 2 == 0 ? at({ahead_m, 0.0}) : at({-ahead_m, 0.0}, kOtherMovingClass)});
+    flight.process(0.5 + 0.1 * frame,
+                   {frame % 2 == 0 ? at({ahead_m, 0.0}) : at({-ahead_m, 0.0}, kOtherMovingClass)});
   }
   EXPECT_EQ(flight.tracks().size(), 2U);
 }
