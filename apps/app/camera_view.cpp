@@ -3,6 +3,7 @@
 
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/io/output/object_report.hpp"
+#include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {

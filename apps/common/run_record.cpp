@@ -5,6 +5,7 @@
 
 #include "common/run_score.hpp"
 #include "geoloc/io/output/object_report.hpp"
+#include "geoloc/projection/projector.hpp"
 
 namespace geoloc::apps {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "calibration/landmark.hpp"
-#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/projection/ground_fix.hpp"
 
 namespace geoloc {
 

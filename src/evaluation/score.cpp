@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geoloc/tracking/assignment.hpp"
+#include "tracking/gaussian.hpp"
 
 namespace geoloc {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
-#include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "pipeline/geolocator_fields.hpp"
+#include "projection/camera_pose.hpp"
 #include "settings/field_checker.hpp"
 #include "tracking/joint_tracker.hpp"
 #include "tracking/paper_tracker.hpp"

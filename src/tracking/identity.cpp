@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "geoloc/tracking/gaussian.hpp"
+#include "tracking/gaussian.hpp"
 
 namespace geoloc {
 namespace {

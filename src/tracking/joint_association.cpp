@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/tracking/gaussian.hpp"
+#include "tracking/gaussian.hpp"
 
 namespace geoloc {
 namespace {

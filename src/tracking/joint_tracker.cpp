@@ -6,8 +6,9 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "tracking/gaussian.hpp"
 #include "tracking/identity.hpp"
-#include "tracking/visibility.hpp"
+#include "tracking/misses.hpp"
 
 namespace geoloc {
 namespace {
@@ -28,29 +29,6 @@ JointTrackerConfig checked(const JointTrackerConfig& config) {
 
 PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
   return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
-}
-
-/// A younger track that may be the same object has this frame's look: begun when the vehicle came back with
-/// another drift, it would outlive the older one, and all that this one knows. nullptr: there is none.
-const RestingObject* seen_as(const RestingObject& track, const TrackTable& tracks, double merge_radius_m) {
-  if (!track.is_confirmed()) return nullptr;
-  for (const RestingObject& other : tracks) {
-    const bool is_young = other.track.id > track.track.id && other.track.hits <= kHitsToCompare;
-    if (is_young && other.is_seen && are_not_told_apart(track, other, merge_radius_m)) return &other;
-  }
-  return nullptr;
-}
-
-/// The object where this frame would show it.
-ShownObject shown_object(const RestingObject& track, const std::vector<Look>& looks,
-                         const FrameShift& shift) {
-  ShownObject object;
-  object.position_in_enu = shift.shown(track.track.position_in_enu.mean);
-  object.sigma_m = std::sqrt(track.own_covariance.trace() + track.sensitivity.squaredNorm());
-  object.size_m = track.size_m;
-  // Its look's is as good and known already.
-  if (track.look) object.ground_per_pixel_m = looks[*track.look].ground_per_pixel_m;
-  return object;
 }
 
 void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
@@ -94,7 +72,8 @@ void JointTracker::update(const LocatedFrame& located) {
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, frame.time(), tracks_);
   const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift};
 
-  weigh_missed(looks.at_rest, frame, shift);
+  const bool may_be_twins = weigh_missed(looks.at_rest, frame, shift, config_, detection_rate_, tracks_);
+  if (may_be_twins) schedule_.request();
   cover_known_points(located, shift);
   absorb_matched(looks.at_rest, explanation, frame);
   begin_tentative(looks.at_rest, explanation, frame);
@@ -122,36 +101,6 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
     drift.freeze_oldest();
   }
   return {located.projector, located.view, span, drift.at(span), noise_clock_.tick(vehicle.time)};
-}
-
-void JointTracker::weigh_missed(const std::vector<Look>& looks, const JointFrame& frame,
-                                const FrameShift& shift) {
-  for (RestingObject& track : tracks_) {
-    if (track.is_in_doubt) {
-      compare_soon(track);
-      continue;
-    }
-    if (track.is_seen && !track.is_confirmed()) continue;
-    const double probability = visibility(shown_object(track, looks, shift), frame.projector, frame.view,
-                                          config_.sigma_px, config_.smallest_object_px) *
-                               detection_rate_.probability();
-    if (probability <= 0.0) continue;
-    track.detection_probability = probability;
-    if (!track.is_seen) {
-      if (const RestingObject* const other = seen_as(track, tracks_, config_.merge_radius_m)) {
-        compare_soon(*other);
-        continue;
-      }
-      track.existence.miss(probability);
-    }
-    if (track.is_confirmed())
-      detection_rate_.count(track.is_seen ? DetectionRate::Outcome::kFound : DetectionRate::Outcome::kMissed);
-  }
-}
-
-/// A track that may be another's twin does not wait for the next solution, once it is known well enough.
-void JointTracker::compare_soon(const RestingObject& track) {
-  if (track.track.hits >= kHitsToCompare && !track.is_compared) schedule_.request();
 }
 
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {

@@ -40,8 +40,6 @@ class JointTracker final : public Tracker {
   using Solution = ArrowheadSolver::Solution;
 
   JointFrame begin_frame(const LocatedFrame& frame);
-  void weigh_missed(const std::vector<Look>& looks, const JointFrame& frame, const FrameShift& shift);
-  void compare_soon(const RestingObject& track);
   void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
   void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
                       const JointFrame& frame);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tracking/gaussian.hpp"
 #include "tracking/visibility.hpp"
 
 namespace geoloc {

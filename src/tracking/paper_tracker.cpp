@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geoloc/geometry/problems.hpp"
+#include "tracking/gaussian.hpp"
 
 namespace geoloc {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geoloc/camera/detection.hpp"
-#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/assignment.hpp"
 #include "geoloc/tracking/paper_tracker_config.hpp"

@@ -6,7 +6,8 @@
 
 #include "geoloc/calibration/calibration.hpp"
 #include "geoloc/geometry/geodetic.hpp"
-#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/projection/ground_fix.hpp"
+#include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "geoloc/tracking/track.hpp"
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/projection/projector.hpp"
 
 namespace geoloc {

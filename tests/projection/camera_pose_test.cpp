@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/projection/camera_pose.hpp"
+#include "projection/camera_pose.hpp"
 
 #include <gtest/gtest.h>
 

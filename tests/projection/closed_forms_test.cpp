@@ -6,8 +6,8 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
-#include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
+#include "projection/camera_pose.hpp"
 
 namespace geoloc {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
-#include "geoloc/projection/camera_pose.hpp"
 #include "geoloc/projection/projector.hpp"
+#include "projection/camera_pose.hpp"
 #include "support/number_lines.hpp"
 #include "support/opencv_lens.hpp"
 

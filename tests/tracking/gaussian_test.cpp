@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "geoloc/tracking/gaussian.hpp"
+#include "tracking/gaussian.hpp"
 
 #include <gtest/gtest.h>
 

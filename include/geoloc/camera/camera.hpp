@@ -39,6 +39,12 @@ struct CameraMount {
   double z_m = 0.0;
 };
 
+enum class CameraOrientation {
+  kComposed,    ///< the mount turns in the body frame: enu_from_body * body_from_camera
+  kAddedAngles  ///< the mount's angles are added to the vehicle's (paper, eq. 6): right only at small roll
+                ///< and pitch
+};
+
 struct CameraConfig {
   CameraIntrinsics intrinsics;
   CameraMount mount;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "geoloc/tracking/gaussian.hpp"
+#include "geoloc/tracking/track.hpp"
 
 namespace geoloc {
 

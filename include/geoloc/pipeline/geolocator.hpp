@@ -11,7 +11,7 @@
 #include "geoloc/calibration/calibration.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
-#include "geoloc/projection/frame_view.hpp"
+#include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/state/samples.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 #include "geoloc/tracking/known_points.hpp"
@@ -19,6 +19,7 @@
 
 namespace geoloc {
 
+class Projector;
 class StateProvider;
 
 /// The whole estimator, and the one class that an autopilot links: telemetry and detections in, objects out.

@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
-#include "geoloc/projection/camera_pose.hpp"
-#include "geoloc/projection/projector.hpp"
+#include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "geoloc/tracking/known_points.hpp"

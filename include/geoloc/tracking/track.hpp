@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -8,9 +9,14 @@
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/tracking/class_votes.hpp"
-#include "geoloc/tracking/gaussian.hpp"
 
 namespace geoloc {
+
+/// Horizontal position with its uncertainty: rows and columns are east, north.
+struct Gaussian2 {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();            ///< [m]
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m^2]
+};
 
 enum class TrackStatus { kTentative, kConfirmed };
 

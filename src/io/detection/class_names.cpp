@@ -47,8 +47,8 @@ class DictionaryReader {
         rest_.remove_prefix(i + 1);
         return text;
       }
-      if (rest_[i] == '\\' && i + 1 < rest_.size())
-        ++i;  // names need only the escapes \' \" and \\
+      // Names need only the escapes of the quotes and of the backslash itself.
+      if (rest_[i] == '\\' && i + 1 < rest_.size()) ++i;
       text += rest_[i];
     }
     return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
+#include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::io {

@@ -6,14 +6,9 @@
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/tracking/track.hpp"
 
 namespace geoloc {
-
-/// Horizontal position with its uncertainty: rows and columns are east, north.
-struct Gaussian2 {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();            ///< [m]
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m^2]
-};
 
 /// Squared Mahalanobis distance of a residual; covariance positive definite.
 inline double mahalanobis_squared(const Eigen::Vector2d& residual, const Eigen::Matrix2d& covariance) {

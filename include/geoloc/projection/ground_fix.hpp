@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "geoloc/camera/detection.hpp"
+#include "geoloc/geometry/rigid3.hpp"
+#include "geoloc/state/vehicle_state.hpp"
+
+namespace geoloc {
+
+struct ProjectorConfig {
+  double ground_height_above_home_m = 0.0;
+  double max_range_m = 1000.0;
+  double min_depression_deg = 5.0;
+
+  std::vector<std::string> problems() const;
+};
+
+/// Where a pixel's ray meets the ground.
+struct GroundFix {
+  Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();    ///< east, north [m]
+  Eigen::Matrix2d ground_from_pixel = Eigen::Matrix2d::Zero();  ///< d (east, north) / d (u, v) [m/px]
+  Eigen::Vector3d direction_in_enu = Eigen::Vector3d::Zero();   ///< of the ray, unit length
+  double range_m = 0.0;                                         ///< from the camera
+
+  /// Covariance [m^2] that isotropic noise of the pixel causes.
+  Eigen::Matrix2d covariance(double sigma_px) const {
+    return sigma_px * sigma_px * ground_from_pixel * ground_from_pixel.transpose();
+  }
+};
+
+enum class NoFix {
+  kNotFinite,     ///< the pixel or the pose is not a number
+  kNoRay,         ///< the lens distortion has no inverse at this pixel
+  kAboveHorizon,  ///< the ray does not come down
+  kTooGrazing,    ///< it meets the ground at too small an angle
+  kTooFar,        ///< beyond max_range_m
+  kBelowGround    ///< the camera is not above the ground plane
+};
+inline constexpr std::size_t kNoFixReasons = 6;
+
+/// One detection with its place on the ground.
+struct LocatedDetection {
+  Detection detection;
+  GroundFix fix;
+};
+
+/// From where a frame was seen.
+struct FrameView {
+  VehicleState vehicle;     ///< at the instant that the frame is taken to show
+  Rigid3d enu_from_camera;  ///< calibration applied
+  HostTime captured_at_host;
+};
+
+}  // namespace geoloc
