@@ -30,6 +30,18 @@ class Baseline(AppTest):
         self.assertEqual((one / "report.json").read_bytes(), (three / "report.json").read_bytes())
 
 
+# RMSE and relative RMSE of the table in docs/results.md.
+MEASURED_M = {
+    ("stock", "paper"): (0.353, 0.331),
+    ("stock", "joint"): (0.043, 0.038),
+    ("stock", "joint, 2 known points"): (0.043, 0.037),
+    ("gnss", "paper"): (0.771, 0.548),
+    ("gnss", "joint"): (0.523, 0.159),
+    ("gnss", "joint, 2 known points"): (0.204, 0.144),
+}
+TOLERANCE = 1.15
+
+
 class JointMethod(AppTest):
     """What docs/results.md promises of the joint method, over every run of the seeds 0, 1 and 2."""
 
@@ -47,14 +59,18 @@ class JointMethod(AppTest):
     def assert_found_all(self, summary):
         self.assertEqual((summary["found"], summary["extra"], summary["merged_pairs"]), (summary["targets"], 0, 0))
 
-    def test_accuracy_and_completeness(self):
-        for flights, method, rmse_m, relative_rmse_m in (("stock", "joint", 0.072, 0.069), ("gnss", "joint", 0.60, 0.25),
-                                                         ("gnss", "joint, 2 known points", 0.28, 0.25)):
+    def test_accuracy_is_what_was_measured(self):
+        for (flights, method), (rmse_m, relative_rmse_m) in MEASURED_M.items():
             with self.subTest(flights=flights, method=method):
                 summary = self.summary(flights, method)
-                self.assertLessEqual(summary["mean_rmse_m"], rmse_m)
-                self.assertLessEqual(summary["mean_relative_rmse_m"], relative_rmse_m)
-                self.assert_found_all(summary)
+                self.assertLessEqual(summary["mean_rmse_m"], TOLERANCE * rmse_m)
+                self.assertLessEqual(summary["mean_relative_rmse_m"], TOLERANCE * relative_rmse_m)
+
+    def test_the_joint_method_finds_every_target_and_nothing_else(self):
+        for flights, method in MEASURED_M:
+            if method != "paper":
+                with self.subTest(flights=flights, method=method):
+                    self.assert_found_all(self.summary(flights, method))
 
     def test_stated_covariances_are_right_within_a_factor_of_two(self):
         for flights in "stock", "gnss":

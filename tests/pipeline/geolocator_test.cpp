@@ -4,75 +4,160 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <limits>
+#include <optional>
 #include <random>
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/projection/projector.hpp"
-#include "geoloc/state/state_provider.hpp"
-#include "projection/camera_pose.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/nadir_flight.hpp"
 
 namespace geoloc {
 namespace {
 
+using testing::at_s;
+using testing::box_at;
+using testing::NadirFlight;
+using testing::Pose;
+
 constexpr double kSpeed_mps = 5.0;
 constexpr double kHeight_m = 20.0;
-const Geodetic kHome{-22.906, -43.133};
 
-VehicleTime at_s(double s) {
-  return VehicleTime{from_seconds(s)};
+/// To the north, pitched up a little and rolling.
+Pose rolling_northwards(double time_s) {
+  return {{0.0, kSpeed_mps * time_s, kHeight_m}, 0.05 * std::sin(time_s), 0.03, 0.0};
 }
 
-/// A level flight to the north over objects on a grid, with perfect telemetry.
-class Flight {
- public:
-  explicit Flight(const GeolocatorConfig& config = {}) : geolocator_(config) {}
+struct SeenObject {
+  Eigen::Vector2d place, pixel;
+};
 
-  void fly_until(double time_s) {
-    for (; telemetry_s_ < time_s + 0.2; telemetry_s_ += 0.1) {
-      PositionSample position;
-      position.time = at_s(telemetry_s_);
-      position.position = frame_.to_geodetic({0.0, kSpeed_mps * telemetry_s_});
-      position.height_above_home_m = kHeight_m;
-      position.height_msl_m = kHeight_m + 10.0;
-      geolocator_.add(position);
-      geolocator_.add(AttitudeSample{at_s(telemetry_s_), {0.05 * std::sin(telemetry_s_), 0.03, 0.0}});
+/// A flight over objects on a grid, with perfect telemetry: vehicle and pixels in closed form.
+class Flight : public NadirFlight {
+ public:
+  explicit Flight(const GeolocatorConfig& config = {}) : NadirFlight(config, rolling_northwards) {}
+
+  /// Those of the grid in view.
+  std::vector<SeenObject> seen(double time_s) const {
+    std::vector<SeenObject> objects;
+    for (double north = 0; north < 200; north += 8.0) {
+      for (const double east : {-8.0, 0.0, 7.0}) {
+        if (const auto pixel = shown(time_s, {east, north})) objects.push_back({{east, north}, *pixel});
+      }
     }
+    return objects;
   }
 
   /// What a perfect detector sees at that time.
-  FrameDetections frame(double time_s) {
-    fly_until(time_s);
-    FrameDetections frame;
-    frame.captured_at = at_s(time_s);
-    frame.captured_at_host = HostTime{from_seconds(1e9 + time_s)};
-    const auto state = geolocator_.state().at(frame.captured_at);
-    const Rigid3d pose = enu_from_camera(*state, CameraMount{}, CameraOrientation::kComposed);
-    for (double north = 0; north < 200; north += 8.0) {
-      for (const double east : {-8.0, 0.0, 7.0}) {
-        const auto pixel = geolocator_.projector().reproject({east, north}, pose);
-        if (!pixel || !geolocator_.projector().camera().contains(*pixel, 20.0)) continue;
-        frame.detections.push_back({{pixel->x() + 0.5 - 18, pixel->y() + 0.5 - 18, 36, 36}, 0.9, 0});
+  std::vector<Detection> boxes(double time_s) const {
+    std::vector<Detection> detections;
+    for (const SeenObject& object : seen(time_s)) detections.push_back(box_at(object.pixel));
+    return detections;
+  }
+};
+
+// --- One frame, against closed forms.
+
+TEST(GeolocatorPose, OfVehicleAndCameraAreThoseOfTheTelemetry) {
+  const testing::Path path = [](double time_s) {
+    return Pose{{3.0 * time_s, -2.0 * time_s, 30.0 + 0.5 * time_s}, 0.2, -0.15, 2.0};
+  };
+  NadirFlight flight({}, path);
+  flight.process(2.05, {});  // between two samples
+  const FrameView& view = flight.geolocator().view();
+  EXPECT_EQ(view.vehicle.time, at_s(2.05));
+  EXPECT_EQ(view.captured_at_host, testing::host_at_s(2.05));
+  EXPECT_LT((view.vehicle.enu_from_body.translation - Eigen::Vector3d(6.15, -4.1, 31.025)).norm(), 1e-3);
+  EXPECT_LT((view.vehicle.velocity_in_enu - Eigen::Vector3d(3.0, -2.0, 0.5)).norm(), 1e-3);
+  // Columns of Rz(2) Ry(-0.15) Rx(0.2), in north-east-down.
+  const double cr = std::cos(0.2), sr = std::sin(0.2), cp = std::cos(0.15), sp = -std::sin(0.15);
+  const double cy = std::cos(2.0), sy = std::sin(2.0);
+  const Eigen::Vector3d nose(sy * cp, cy * cp, sp);  // east, north, up: up is sine of the pitch
+  const Eigen::Vector3d right(sr * sp * sy + cr * cy, sr * sp * cy - cr * sy, -sr * cp);
+  const Eigen::Matrix3d body = view.vehicle.enu_from_body.rotation.toRotationMatrix();
+  EXPECT_LT((body.col(0) - nose).norm(), 1e-5);
+  EXPECT_LT((body.col(1) - right).norm(), 1e-5);
+  // The camera's right is the vehicle's, its image's bottom the vehicle's tail.
+  const Eigen::Matrix3d camera = view.enu_from_camera.rotation.toRotationMatrix();
+  EXPECT_LT((camera.col(0) - right).norm(), 1e-5);
+  EXPECT_LT((camera.col(1) + nose).norm(), 1e-5);
+  EXPECT_LT((camera.col(2) - right.cross(Eigen::Vector3d(-nose))).norm(), 1e-5);
+}
+
+TEST(GeolocatorFixes, AreWhereTheObjectsAre) {
+  for (const Pose& pose :
+       {Pose{{0, 0, 20}, 0, 0, 0}, Pose{{0, 0, 35}, 0.3, -0.2, 2.1}, Pose{{0, 0, 60}, -0.1, 0.4, -1.0}}) {
+    NadirFlight flight({}, [&](double) { return pose; });
+    std::vector<Eigen::Vector2d> places;
+    std::vector<Detection> detections;
+    for (double east = -30.0; east < 31.0; east += 5.0) {
+      for (double north = -30.0; north < 31.0; north += 5.0) {
+        const auto pixel = flight.shown(1.0, {east, north});
+        if (!pixel) continue;
+        places.emplace_back(east, north);
+        detections.push_back(box_at(*pixel));
+        detections.back().confidence -= 1e-3 * static_cast<double>(places.size());  // the order of located()
       }
     }
-    return frame;
+    ASSERT_GE(places.size(), 9U);
+    flight.process(1.0, detections);
+    const std::vector<LocatedDetection>& located = flight.geolocator().located();
+    ASSERT_EQ(located.size(), places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      EXPECT_LT((located[i].fix.position_in_enu - places[i]).norm(), 1e-3);
+      const double range_m = std::hypot((places[i] - pose.position.head<2>()).norm(), pose.position.z());
+      EXPECT_NEAR(located[i].fix.range_m, range_m, 1e-3);
+    }
   }
+}
 
-  Geolocator& geolocator() { return geolocator_; }
+/// Level, to the east, the camera tilted half way down, a metre before and half a metre below the vehicle.
+TEST(GeolocatorFixes, OfATiltedCameraAreAheadOfIt) {
+  GeolocatorConfig config;
+  config.camera.mount.pitch_deg = -45.0;
+  config.camera.mount.x_m = 1.0;
+  config.camera.mount.z_m = 0.5;
+  NadirFlight flight(config, [](double) { return Pose{{0, 0, 20.5}, 0, 0, kPi / 2}; });
+  flight.process(1.0, {box_at({testing::kPrincipalX_px, testing::kPrincipalY_px})});
+  ASSERT_EQ(flight.geolocator().located().size(), 1U);
+  EXPECT_LT((flight.geolocator().located()[0].fix.position_in_enu - Eigen::Vector2d(21.0, 0.0)).norm(), 1e-3);
+  // A pixel of 45 degrees to the right: as far aside as the ray is long.
+  flight.process(1.1,
+                 {box_at({testing::kPrincipalX_px + 0.5 * testing::kFocal_px, testing::kPrincipalY_px})});
+  const Eigen::Vector2d aside(21.0, -0.5 * 20.0 * std::sqrt(2.0));
+  EXPECT_LT((flight.geolocator().located()[0].fix.position_in_enu - aside).norm(), 1e-3);
+}
 
- private:
-  LocalFrame frame_{kHome, 10.0};
-  Geolocator geolocator_;
-  double telemetry_s_ = 0.0;
-};
+TEST(GeolocatorFixes, AreOnTheGroundThatIsStated) {
+  GeolocatorConfig config;
+  config.projector.ground_height_above_home_m = 5.0;
+  NadirFlight flight(config, testing::hovering_at({0, 0, 25.0}));
+  flight.process(1.0, {box_at({testing::kPrincipalX_px + 100.0, testing::kPrincipalY_px - 50.0})});
+  const Eigen::Vector2d expected(100.0 * 20.0 / testing::kFocal_px, 50.0 * 20.0 / testing::kFocal_px);
+  EXPECT_LT((flight.geolocator().located()[0].fix.position_in_enu - expected).norm(), 1e-3);
+}
+
+TEST(GeolocatorFixes, ThatThereAreNoneOfAreCountedByTheReason) {
+  GeolocatorConfig config;
+  config.camera.mount.pitch_deg = 0.0;  // the horizon is the image's middle row
+  NadirFlight flight(config, testing::hovering_at({0, 0, 20.0}));
+  flight.process(1.0, {box_at({640, 100}), box_at({640, 200}), box_at({640, 400}), box_at({640, 600})});
+  const auto& no_fix = flight.geolocator().counters().no_fix;
+  EXPECT_EQ(no_fix[static_cast<std::size_t>(NoFix::kAboveHorizon)], 2U);
+  EXPECT_EQ(no_fix[static_cast<std::size_t>(NoFix::kTooGrazing)], 1U);  // 2.5 degrees down
+  EXPECT_EQ(flight.geolocator().located().size(), 1U);
+  EXPECT_EQ(flight.geolocator().counters().detections, 4U);
+  EXPECT_EQ(flight.geolocator().counters().frames_located, 1U);
+}
+
+// --- Whole flights.
 
 TEST(Geolocator, FindsEveryObjectWhereItIs) {
   Flight flight;
-  for (double time_s = 1.0; time_s < 30.0; time_s += 0.1)
-    ASSERT_TRUE(flight.geolocator().process(flight.frame(time_s)));
+  for (double time_s = 1.0; time_s < 30.0; time_s += 0.1) {
+    ASSERT_TRUE(flight.process(time_s, flight.boxes(time_s)));
+  }
   int confirmed = 0;
   for (const Track& track : flight.geolocator().tracks()) {
     if (track.status != TrackStatus::kConfirmed) continue;
@@ -93,21 +178,17 @@ TEST(Geolocator, KeepsTwoObjectsHalfAMetreApartWhereBothWereSeenAtOnce) {
     std::bernoulli_distribution is_missed(0.2);
     int pairs = 0;
     for (double time_s = 1.0; time_s < 25.0; time_s += 0.1) {
-      FrameDetections frame = flight.frame(time_s);
-      const std::vector<Detection> grid = std::exchange(frame.detections, {});
-      const double half_metre_px =
-          0.5 * flight.geolocator().projector().camera().intrinsics().fx_px / kHeight_m;
-      for (const Detection& detection : grid) {
+      std::vector<Detection> detections;
+      const double half_metre_px = 0.5 * testing::kFocal_px / kHeight_m;
+      for (const SeenObject& object : flight.seen(time_s)) {
         for (const double aside_px : {0.0, half_metre_px}) {
           if (is_missed(random)) continue;
-          const Eigen::Vector2d centre = detection.box.centre() + Eigen::Vector2d(aside_px, 0.0);
-          frame.detections.push_back({{centre.x() + 0.5 - 9.0 + noise_px(random),
-                                       centre.y() + 0.5 - 9.0 + noise_px(random), 18.0, 18.0},
-                                      0.9,
-                                      0});
+          const double u = object.pixel.x() + aside_px + noise_px(random),
+                       v = object.pixel.y() + noise_px(random);
+          detections.push_back(box_at({u, v}, 18.0));
         }
       }
-      flight.geolocator().process(frame);
+      flight.process(time_s, std::move(detections));
     }
     std::vector<Eigen::Vector2d> objects;
     for (const Track& track : flight.geolocator().tracks()) {
@@ -129,19 +210,11 @@ TEST(Geolocator, KeepsTwoObjectsHalfAMetreApartWhereBothWereSeenAtOnce) {
 }
 
 /// One object of the grid, by a detector that knows centres to 0.2 px; moved by `aside_m` from then on.
-FrameDetections with_one_object(Flight& flight, double time_s, double aside_m) {
-  FrameDetections frame = flight.frame(time_s);
-  const std::vector<Detection> grid = std::exchange(frame.detections, {});
-  const auto view = enu_from_camera(*flight.geolocator().state().at(frame.captured_at), CameraMount{},
-                                    CameraOrientation::kComposed);
-  const auto pixel = flight.geolocator().projector().reproject({aside_m, 40.0}, view);
-  const Eigen::Vector2d nominal{0.0, 40.0};
-  for (const Detection& detection : grid) {
-    const auto fix = flight.geolocator().projector().project(detection.box.centre(), view);
-    if ((fix->position_in_enu - nominal).norm() > 1.0 || !pixel) continue;
-    frame.detections.push_back({{pixel->x() + 0.5 - 18, pixel->y() + 0.5 - 18, 36, 36}, 0.9, 0, 0.2});
-  }
-  return frame;
+std::vector<Detection> one_object(const Flight& flight, double time_s, double aside_m) {
+  if (!flight.shown(time_s, {0.0, 40.0})) return {};
+  Detection box = box_at(*flight.shown(time_s, {aside_m, 40.0}, 0.0));
+  box.sigma_px = 0.2;
+  return {box};
 }
 
 /// A flight over that object, moved by aside_m(time): it stays one object, and nearly all looks are used.
@@ -151,9 +224,9 @@ void expect_one_object(Aside aside_m, double begin_s = 4.0) {
   Flight flight;
   std::size_t looks = 0;
   for (double time_s = begin_s; time_s < 12.0; time_s += time_s < 4.0 ? 0.02 : 0.1) {
-    const FrameDetections frame = with_one_object(flight, time_s, aside_m(time_s));
-    looks += frame.detections.size();
-    flight.geolocator().process(frame);
+    const std::vector<Detection> detections = one_object(flight, time_s, aside_m(time_s));
+    looks += detections.size();
+    flight.process(time_s, detections);
   }
   ASSERT_GT(looks, 25U);
   int objects = 0;
@@ -194,31 +267,24 @@ Eigen::Vector2d offset_of_pair(double north_m, double apart_m) {
   return apart_m * Eigen::Vector2d(std::cos(direction), std::sin(direction));
 }
 
-/// A frame in which a detector that takes near neighbours for one object while they are ahead of the vehicle
-/// sees each place of the grid: the middle column's are pairs, in all directions.
-FrameDetections with_pairs(Flight& flight, double time_s, double apart_m, std::mt19937& random) {
+/// What a detector that takes near neighbours for one object while they are ahead of the vehicle sees: the
+/// grid's middle column is pairs, in all directions.
+std::vector<Detection> with_pairs(const Flight& flight, double time_s, double apart_m, std::mt19937& random) {
   std::normal_distribution<double> noise_px(0.0, 1.0);
-  FrameDetections frame = flight.frame(time_s);
-  const std::vector<Detection> grid = std::exchange(frame.detections, {});
-  const auto view = enu_from_camera(*flight.geolocator().state().at(frame.captured_at), CameraMount{},
-                                    CameraOrientation::kComposed);
-  for (const Detection& detection : grid) {
-    const auto fix = flight.geolocator().projector().project(detection.box.centre(), view);
-    const bool is_pair = std::abs(fix->position_in_enu.x()) < 1.0;
-    const bool is_resolved = detection.box.centre().y() > 360.0;
+  std::vector<Detection> detections;
+  for (const SeenObject& object : flight.seen(time_s)) {
+    const bool is_pair = object.place.x() == 0.0;
+    const bool is_resolved = object.pixel.y() > 360.0;
     std::vector<double> shares{0.0};
-    if (is_pair) shares = is_resolved ? std::vector<double>{-0.5, 0.5} : std::vector<double>{0.0};
+    if (is_pair && is_resolved) shares = {-0.5, 0.5};
     for (const double share : shares) {
-      const Eigen::Vector2d place =
-          fix->position_in_enu + share * offset_of_pair(fix->position_in_enu.y(), apart_m);
-      const auto pixel = flight.geolocator().projector().reproject(place, view);
-      frame.detections.push_back({{pixel->x() + 0.5 - 18.0 + noise_px(random),
-                                   pixel->y() + 0.5 - 18.0 + noise_px(random), 36.0, 36.0},
-                                  0.9,
-                                  0});
+      const Eigen::Vector2d place = object.place + share * offset_of_pair(object.place.y(), apart_m);
+      const Eigen::Vector2d pixel = *flight.shown(time_s, place, 0.0);
+      const double u = pixel.x() + noise_px(random), v = pixel.y() + noise_px(random);
+      detections.push_back(box_at({u, v}));
     }
   }
-  return frame;
+  return detections;
 }
 
 TEST(Geolocator, SplitsAnObjectThatTurnsOutToBeTwo) {
@@ -229,7 +295,7 @@ TEST(Geolocator, SplitsAnObjectThatTurnsOutToBeTwo) {
       Flight flight;
       std::mt19937 random(seed);
       for (double time_s = 1.0; time_s < 25.0; time_s += 0.1)
-        flight.geolocator().process(with_pairs(flight, time_s, apart_m, random));
+        flight.process(time_s, with_pairs(flight, time_s, apart_m, random));
       for (double north = 16.0; north < 80.0; north += 8.0) {
         const Eigen::Vector2d half = 0.5 * offset_of_pair(north, apart_m);
         std::vector<Eigen::Vector2d> found;
@@ -265,33 +331,30 @@ GeolocatorConfig with_moving_cars() {
 }
 
 /// The static grid with the detector's noise, and the cars if wanted.
-FrameDetections with_cars(Flight& flight, double time_s, bool cars, std::mt19937& random) {
+std::vector<Detection> with_cars(const Flight& flight, double time_s, bool cars, std::mt19937& random) {
   std::normal_distribution<double> noise_px(0.0, 1.0);
-  FrameDetections frame = flight.frame(time_s);
-  for (Detection& detection : frame.detections) {
+  std::vector<Detection> detections = flight.boxes(time_s);
+  for (Detection& detection : detections) {
     detection.box.x += noise_px(random);
     detection.box.y += noise_px(random);
   }
-  if (!cars) return frame;
-  const Projector& projector = flight.geolocator().projector();
-  const auto view = enu_from_camera(*flight.geolocator().state().at(frame.captured_at), CameraMount{},
-                                    CameraOrientation::kComposed);
+  if (!cars) return detections;
   std::mt19937 random_of_cars(static_cast<unsigned>(std::lround(time_s * 10.0)));
   for (const Eigen::Vector2d& car : cars_at(time_s)) {
-    const auto pixel = projector.reproject(car, view);
-    if (!pixel || !projector.camera().contains(*pixel, 40.0)) continue;
-    const double u = pixel->x() + 0.5 + noise_px(random_of_cars),
-                 v = pixel->y() + 0.5 + noise_px(random_of_cars);
-    frame.detections.push_back({{u - 30.0, v - 30.0, 60.0, 60.0}, 0.8, kCar});
+    const auto pixel = flight.shown(time_s, car, 40.0);
+    if (!pixel) continue;
+    const double u = pixel->x() + noise_px(random_of_cars), v = pixel->y() + noise_px(random_of_cars);
+    detections.push_back(box_at({u, v}, 60.0, kCar));
+    detections.back().confidence = 0.8;
   }
-  return frame;
+  return detections;
 }
 
 TEST(Geolocator, TellsWhereAndHowFastMovingObjectsWere) {
   Flight flight(with_moving_cars());
   std::mt19937 random(5);
   for (double time_s = 1.0; time_s < 30.0; time_s += 0.1)
-    flight.geolocator().process(with_cars(flight, time_s, true, random));
+    flight.process(time_s, with_cars(flight, time_s, true, random));
   std::vector<Track> found;
   for (const Track& track : flight.geolocator().tracks()) {
     if (track.class_id() == kCar && track.status == TrackStatus::kConfirmed) found.push_back(track);
@@ -311,8 +374,8 @@ TEST(Geolocator, LearnsTheSameOfAllElseWhetherThingsMoveThroughThePictureOrNot) 
   Flight with(with_moving_cars()), without(with_moving_cars());
   std::mt19937 random_with(5), random_without(5);
   for (double time_s = 1.0; time_s < 30.0; time_s += 0.1) {
-    with.geolocator().process(with_cars(with, time_s, true, random_with));
-    without.geolocator().process(with_cars(without, time_s, false, random_without));
+    with.process(time_s, with_cars(with, time_s, true, random_with));
+    without.process(time_s, with_cars(without, time_s, false, random_without));
   }
   EXPECT_EQ(with.geolocator().calibration()->mean, without.geolocator().calibration()->mean);
   std::vector<Eigen::Vector2d> still_with, still_without;
@@ -328,14 +391,13 @@ TEST(Geolocator, DoesNotMindTheOrderOfDetections) {
   Flight straight, shuffled;
   std::mt19937 random(11);
   for (double time_s = 1.0; time_s < 20.0; time_s += 0.1) {
-    FrameDetections frame = straight.frame(time_s);
-    for (Detection& detection : frame.detections) {
+    std::vector<Detection> detections = straight.boxes(time_s);
+    for (Detection& detection : detections) {
       detection.box.x += std::normal_distribution<double>(0.0, 3.0)(random);
     }
-    straight.geolocator().process(frame);
-    std::shuffle(frame.detections.begin(), frame.detections.end(), random);
-    shuffled.fly_until(time_s);
-    shuffled.geolocator().process(frame);
+    straight.process(time_s, detections);
+    std::shuffle(detections.begin(), detections.end(), random);
+    shuffled.process(time_s, detections);
   }
   const auto& a = straight.geolocator().tracks();
   const auto& b = shuffled.geolocator().tracks();
@@ -350,7 +412,9 @@ TEST(Geolocator, DoesNotMindTheOrderOfDetections) {
 
 TEST(Geolocator, GuessesNothingWithoutState) {
   Flight flight;
-  FrameDetections frame = flight.frame(1.0);
+  flight.fly_until(1.0);
+  FrameDetections frame;
+  frame.detections = flight.boxes(1.0);
   frame.captured_at = at_s(500.0);
   EXPECT_EQ(flight.geolocator().missing_state(frame.captured_at), NoState::kNotYet);
   EXPECT_FALSE(flight.geolocator().process(frame));
@@ -368,9 +432,7 @@ TEST(Geolocator, DoesNotUseBoxesThatTheImagesEdgeMayHaveCut) {
     GeolocatorConfig config;
     config.edge_margin_px = edge_margin_px;
     Flight flight(config);
-    FrameDetections frame = flight.frame(1.0);
-    frame.detections = boxes;
-    flight.geolocator().process(frame);
+    flight.process(1.0, boxes);
     EXPECT_EQ(flight.geolocator().counters().detections_at_edge, edge_margin_px > 0.0 ? 4U : 0U);
     EXPECT_EQ(flight.geolocator().located().size(), edge_margin_px > 0.0 ? 1U : 5U);
   }
@@ -380,17 +442,15 @@ TEST(Geolocator, CountsDetectionsItCannotUse) {
   GeolocatorConfig config;
   config.max_detections = 2;
   Flight flight(config);
-  FrameDetections frame = flight.frame(1.0);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  frame.detections = {{{100, 100, 30, 30}, 0.5, 0},
-                      {{nan, 0, 1, 1}, 0.9, 0},
-                      {{0, 0, 0, 10}, 0.9, 0},
-                      {{200, 300, 30, 30}, 0.9, 0, nan},
-                      {{300, 300, 30, 30}, 0.9, 0, -1.0},
-                      {{400, 300, 30, 30}, 0.9, 0, 1e-9},
-                      {{500, 300, 30, 30}, 0.9, 0},
-                      {{700, 300, 30, 30}, 0.8, 0}};
-  flight.geolocator().process(frame);
+  flight.process(1.0, {{{100, 100, 30, 30}, 0.5, 0},
+                       {{nan, 0, 1, 1}, 0.9, 0},
+                       {{0, 0, 0, 10}, 0.9, 0},
+                       {{200, 300, 30, 30}, 0.9, 0, nan},
+                       {{300, 300, 30, 30}, 0.9, 0, -1.0},
+                       {{400, 300, 30, 30}, 0.9, 0, 1e-9},
+                       {{500, 300, 30, 30}, 0.9, 0},
+                       {{700, 300, 30, 30}, 0.8, 0}});
   EXPECT_EQ(flight.geolocator().counters().detections_dropped, 6U);
   ASSERT_EQ(flight.geolocator().located().size(), 2U);  // the two most confident
   EXPECT_DOUBLE_EQ(flight.geolocator().located()[0].detection.confidence, 0.9);
@@ -403,9 +463,9 @@ TEST(Geolocator, TrustsADetectionAsFarAsItTrustsItself) {
     config.method = method;
     Flight flight(config);
     for (double time_s = 1.0; time_s < 15.0; time_s += 0.1) {
-      FrameDetections frame = flight.frame(time_s);
-      for (Detection& detection : frame.detections) detection.sigma_px = sigma_px;
-      flight.geolocator().process(frame);
+      std::vector<Detection> detections = flight.boxes(time_s);
+      for (Detection& detection : detections) detection.sigma_px = sigma_px;
+      flight.process(time_s, detections);
     }
     double sum_m = 0.0;
     for (const Track& track : flight.geolocator().tracks())
@@ -425,13 +485,14 @@ TEST(Geolocator, DoesNotAllocateInTheSteadyState) {
   std::mt19937 random(5);
   std::vector<FrameDetections> frames;
   for (double time_s = 1.0; time_s < 15.0; time_s += 0.1)
-    frames.push_back(with_cars(flight, time_s, true, random));
+    frames.push_back({at_s(time_s), testing::host_at_s(time_s), with_cars(flight, time_s, true, random)});
+  flight.fly_until(15.0);
   flight.geolocator().process(frames[0]);
   const std::size_t before = testing::allocations();
   for (const FrameDetections& frame : frames) flight.geolocator().process(frame);
   PositionSample position;
   position.time = at_s(100.0);
-  position.position = kHome;
+  position.position = testing::geodetic_of({0.0, 0.0});
   flight.geolocator().add(position);
   flight.geolocator().add(AttitudeSample{at_s(100.0), {}});
   EXPECT_EQ(testing::allocations(), before);

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/track_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+namespace geoloc {
+namespace {
+
+TEST(TrackTable, IsFullAtItsCapacity) {
+  TrackTable table(2);
+  EXPECT_FALSE(table.is_full());
+  table.append();
+  EXPECT_FALSE(table.is_full());
+  table.append();
+  EXPECT_TRUE(table.is_full());
+  table.remove(0);
+  EXPECT_FALSE(table.is_full());
+}
+
+/// However rows come and go, each keeps its landmark, and no two have one landmark.
+TEST(TrackTable, GivesEachRowALandmarkOfItsOwnForItsLife) {
+  TrackTable table(8);
+  std::mt19937 random(2);
+  std::uint64_t next_id = 1;
+  std::map<std::uint64_t, const Landmark*> landmarks;
+  for (int step = 0; step < 500; ++step) {
+    if (table.size() == 0 || (!table.is_full() && random() % 2 == 0)) {
+      RestingObject& row = table.append();
+      row.track.id = next_id++;
+      landmarks[row.track.id] = row.landmark;
+    } else {
+      const std::size_t row = random() % table.size();
+      landmarks.erase(table[row].track.id);
+      table.remove(row);
+    }
+    ASSERT_EQ(table.size(), landmarks.size());
+    std::set<const Landmark*> distinct;
+    std::uint64_t before = 0;
+    for (const RestingObject& row : table) {
+      EXPECT_GT(row.track.id, before);  // in order of their ids
+      before = row.track.id;
+      ASSERT_EQ(row.landmark, landmarks.at(row.track.id));
+      distinct.insert(row.landmark);
+    }
+    ASSERT_EQ(distinct.size(), table.size());
+  }
+}
+
+TEST(TrackTable, ForgetsWhatAFrameTold) {
+  TrackTable table(2);
+  RestingObject& row = table.append();
+  row.is_seen = true;
+  row.look = 3;
+  row.is_in_doubt = true;
+  row.detection_probability = 0.7;
+  row.track.hits = 5;
+  table.clear_evidence();
+  EXPECT_FALSE(row.is_seen);
+  EXPECT_FALSE(row.look);
+  EXPECT_FALSE(row.is_in_doubt);
+  EXPECT_EQ(row.detection_probability, 0.0);
+  EXPECT_EQ(row.track.hits, 5);
+}
+
+}  // namespace
+}  // namespace geoloc
