@@ -33,6 +33,7 @@ trap 'exit 130' INT TERM
 # fail PROGRAM STATUS LOG: shows the program's own messages last, where they are read.
 fail() {
   local words
+  patience_us=1000000
   sleep 0.1  # for tee
   words=$(tr '\r' '\n' <"$3" | grep -v '^[[:space:]]*$' | tail -n 5) || true
   say "$1 ended early, with status $2:"
