@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include "geoloc/geometry/time.hpp"
 
 namespace geoloc {
@@ -17,11 +15,12 @@ class SolutionSchedule {
   void request() { is_requested_ = true; }
 
   bool is_due(VehicleTime now) const {
-    return is_requested_ || frames_ <= kEagerFrames || !solved_at_ || now < *solved_at_ ||
-           seconds(now - *solved_at_) >= period_s_;
+    return is_requested_ || frames_ <= kEagerFrames || !has_solution_ || now < solved_at_ ||
+           seconds(now - solved_at_) >= period_s_;
   }
 
   void begin_solution(VehicleTime now) {
+    has_solution_ = true;
     solved_at_ = now;
     is_requested_ = false;
   }
@@ -39,7 +38,8 @@ class SolutionSchedule {
   static constexpr int kSolutionsPerLessonLater = 5;
 
   double period_s_;
-  std::optional<VehicleTime> solved_at_;
+  bool has_solution_ = false;
+  VehicleTime solved_at_{};
   bool is_requested_ = false;
   int frames_ = 0;
   int solutions_ = 0;

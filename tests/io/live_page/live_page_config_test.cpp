@@ -47,7 +47,7 @@ TEST(LivePageConfig, NamesEveryFaultByItsPath) {
 }
 
 TEST(LivePageConfig, KeepsEveryBoundThatItsDescriptionNames) {
-  EXPECT_GT(testing::expect_bounds_are_kept<LivePageConfig>(), 0U);
+  EXPECT_GT(geoloc::testing::expect_bounds_are_kept<LivePageConfig>(), 0U);
 }
 
 }  // namespace

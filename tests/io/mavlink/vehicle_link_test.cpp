@@ -220,7 +220,7 @@ TEST(MavlinkConfig, NamesEveryFault) {
 }
 
 TEST(MavlinkConfig, KeepsEveryBoundThatItsDescriptionNames) {
-  EXPECT_GT(testing::expect_bounds_are_kept<MavlinkConfig>(), 0U);
+  EXPECT_GT(geoloc::testing::expect_bounds_are_kept<MavlinkConfig>(), 0U);
 }
 
 }  // namespace
