@@ -9,6 +9,9 @@
 #include "common/command_line.hpp"
 #include "common/detector_options.hpp"
 #include "detect/detect_run.hpp"
+#include "geoloc/geometry/problems.hpp"
+#include "io/detection/detection_fields.hpp"
+#include "settings/field_checker.hpp"
 
 namespace {
 
@@ -60,6 +63,7 @@ io::DetectionConfig detection_of(const Options& options, const io::DetectionConf
     config.input_width_px = options.input_size_px[0];
     config.input_height_px = options.input_size_px[1];
   }
+  throw_if_any(check_fields(config, "detection"));
   return config;
 }
 

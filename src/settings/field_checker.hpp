@@ -72,11 +72,12 @@ class FieldChecker {
   std::string path_;
 };
 
-/// Every problem of a structure that visit_fields() describes, named by its path in it.
+/// Every problem of a structure that visit_fields() describes, named by its path in it, after `path`.
 template <typename Config>
-std::vector<std::string> check_fields(Config config) {  // by value: the visit takes what it may change
+std::vector<std::string> check_fields(Config config,  // by value: the visit takes what it may change
+                                      const std::string& path = {}) {
   std::vector<std::string> problems;
-  FieldChecker checker(problems);
+  FieldChecker checker(problems, path);
   visit_fields(checker, config);
   return problems;
 }
