@@ -10,8 +10,8 @@ endif()
 function(geoloc_set_flags target)
   target_compile_features(${target} PUBLIC cxx_std_17)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion>)  # as g++ takes -Wconversion in C++: indices are std::size_t
+  # Indices are std::size_t, Eigen's are signed: clang, and clang-tidy, take -Wconversion to include that.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
   if(NOT CMAKE_UNITY_BUILD)  # in a unity build, names of one file hide those of another
     target_compile_options(${target} PRIVATE -Wshadow)
   endif()
