@@ -396,6 +396,28 @@ TEST(JointCalibration, LearnsHowStronglyThePositionWanders) {
     EXPECT_NEAR(learnt_strength(strength, 3), strength, 0.3 * strength);
 }
 
+/// The offset's sigma follows the wandering between a tenth and three times what was expected.
+TEST(JointCalibration, BelievesTheWanderingWithinBounds) {
+  EXPECT_NEAR(learnt_strength(0.0, 3), 0.1, 1e-6);
+  EXPECT_NEAR(learnt_strength(6.0, 3), 3.0, 1e-6);
+}
+
+/// Half of the constant share of the receiver's variance per axis, as it claims it to be now.
+TEST(JointCalibration, ExpectsOfTheReceiverWhatItClaims) {
+  const auto sigma_after = [](std::optional<double> accuracy_m) {
+    NadirFlight flight = hovering();
+    flight.set_accuracy(accuracy_m);
+    flight.see(0.5, {kPlace});
+    return flight.geolocator().calibration()->sigma(CalibrationIndex::kOffset);
+  };
+  const JointTrackerConfig joint;
+  const double share = std::sqrt(0.5 * joint.constant_share);
+  EXPECT_NEAR(sigma_after(std::nullopt), share * joint.horizontal_accuracy_m, 1e-6);
+  EXPECT_NEAR(sigma_after(3.0), share * 3.0, 1e-6);
+  EXPECT_NEAR(sigma_after(1e6), share * 100.0, 1e-4);
+  EXPECT_NEAR(sigma_after(1e-6), joint.least_offset_sigma_m, 1e-9);
+}
+
 // --- Known points.
 
 /// The vehicle reports to be where it is not, always by the same.
@@ -446,6 +468,31 @@ TEST(JointKnownPoints, TakeTheConstantErrorOutOfAllObjects) {
       EXPECT_LT(sigma_m, point.sigma_m);
       EXPECT_GT(sigma_m, 0.8 * point.sigma_m);
     }
+  }
+}
+
+/// The frame that matches a point states the covariances that follow.
+TEST(JointKnownPoints, MakeAllObjectsBetterKnownAtOnce) {
+  const std::vector<Eigen::Vector2d> places = grid(0.0, 24.0, 8.0);
+  GeolocatorConfig config;
+  KnownPoint point;
+  point.position = geodetic_of(places[4]);
+  config.known_points.push_back(point);
+  NadirFlight flight = displaced(config, {0.4, -0.3});
+  const auto is_matched = [&] {
+    return flight.geolocator().known_points()[0].status == KnownPointStatus::kMatched;
+  };
+  std::vector<Track> before;
+  for (double time_s = 1.0; time_s < 11.0 && !is_matched(); time_s += 0.1) {
+    before = flight.tracks();
+    flight.see(time_s, places);
+  }
+  ASSERT_TRUE(is_matched());
+  ASSERT_GE(before.size(), 6U);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    const Track& now = flight.tracks()[i];
+    EXPECT_LT(now.position_in_enu.covariance.trace(), 0.6 * before[i].position_in_enu.covariance.trace());
+    EXPECT_GT((now.position_in_enu.mean - before[i].position_in_enu.mean).norm(), 0.3);
   }
 }
 

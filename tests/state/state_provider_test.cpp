@@ -47,6 +47,25 @@ TEST(StateProvider, GivesNoStateWithoutBothQuantities) {
   EXPECT_EQ(provider.at(at_s(0.05)).error(), NoState::kNoSamples);
 }
 
+TEST(StateProvider, KnowsNothingOfBeforeAReboot) {
+  for (const bool is_position_first : {true, false}) {
+    StateProvider provider(StateConfig{});
+    for (int i = 0; i <= 10; ++i) {
+      provider.add(position(0.1 * i, 0, 20));
+      provider.add(AttitudeSample{at_s(0.1 * i), {}});
+    }
+    ASSERT_TRUE(provider.at(at_s(0.55)));
+    provider.restart();
+    EXPECT_EQ(provider.at(at_s(0.55)).error(), NoState::kNoSamples);
+    for (int i = 0; i <= 10; ++i) {
+      if (is_position_first) provider.add(position(0.1 * i, 0, 20));
+      if (!is_position_first) provider.add(AttitudeSample{at_s(0.1 * i), {}});
+    }
+    EXPECT_EQ(provider.at(at_s(0.55)).error(), NoState::kNoSamples);
+    EXPECT_EQ(provider.counters().reboots, 1U);
+  }
+}
+
 TEST(StateProvider, StartsAfreshAfterAReboot) {
   StateProvider provider(StateConfig{});
   for (int i = 0; i < 50; ++i) {

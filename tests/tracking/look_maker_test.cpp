@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/look_maker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+
+#include "calibration/linearize.hpp"
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/projection/projector.hpp"
+
+namespace geoloc {
+namespace {
+
+constexpr double kUp_m = 20.0, kFocal_px = 1000.0;
+constexpr double kPixel_m = kUp_m / kFocal_px;
+constexpr int kCarClass = 7;
+
+/// A level vehicle over the origin that flies north-east, its camera looking straight down, the image's top
+/// to the north: right is east, down is south, and everything about a look can be written down.
+class LooksFromAbove : public ::testing::Test {
+ protected:
+  LooksFromAbove() {
+    config_.moving.classes = {kCarClass};
+    config_.sigma_px = 2.0;
+    config_.sigma_attitude_deg = 0.3;
+    config_.sigma_time_s = 0.05;
+    config_.fast_share = 0.25;
+    const Eigen::Matrix3d looking_down = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
+    view_.enu_from_camera = {Eigen::Quaterniond(looking_down), {0.0, 0.0, kUp_m}};
+    view_.vehicle.velocity_in_enu = {3.0, 4.0, 0.0};
+    span_ = errors_.drift.cover(VehicleTime{from_seconds(10.0)}, 0.5);
+  }
+
+  static CameraIntrinsics intrinsics() {
+    CameraIntrinsics camera;
+    camera.fx_px = camera.fy_px = kFocal_px;
+    return camera;
+  }
+
+  /// A detection of a place [m].
+  LocatedDetection located(double east, double north, int class_id = 0, double size_px = 40.0) {
+    const CameraIntrinsics camera = intrinsics();
+    const Eigen::Vector2d pixel(camera.cx_px + east / kPixel_m, camera.cy_px - north / kPixel_m);
+    LocatedDetection located;
+    located.detection.box = {pixel.x() + 0.5 - 0.5 * size_px, pixel.y() + 0.5 - 0.75 * size_px, size_px,
+                             1.5 * size_px};
+    located.detection.class_id = class_id;
+    located.fix = *projector_.project(pixel, view_.enu_from_camera);
+    return located;
+  }
+
+  FrameLooks make(const std::vector<LocatedDetection>& detections) {
+    LookMaker maker(config_, 20);
+    const JointFrame frame{projector_, view_, span_, drift_, repetition_};
+    return maker.make(detections, frame, errors_);
+  }
+
+  /// Variances per axis of the noise [m^2].
+  double pixel() const { return std::pow(config_.sigma_px * kPixel_m, 2); }
+  double attitude() const { return std::pow(config_.sigma_attitude_deg * kPi / 180.0 * kUp_m, 2); }
+  double position() const { return std::pow(config_.fast_share * accuracy_.radial_m, 2) / 2.0; }
+
+  JointTrackerConfig config_;
+  Projector projector_{{}, intrinsics()};
+  FrameView view_;
+  PositionAccuracy accuracy_{0.8, 0.2, 0.02};
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  SharedErrorEstimate errors_{accuracy_, DriftConfig{}, solver_};
+  NodeSpan span_{};
+  NodeVector drift_ = NodeVector::Zero();
+  NoiseRepetition repetition_{5.0, 3.0};
+};
+
+TEST_F(LooksFromAbove, KnowTheirNoise) {
+  const FrameLooks looks = make({located(0.0, 0.0)});
+  ASSERT_EQ(looks.at_rest.size(), 1U);
+  const Look& look = looks.at_rest[0];
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  EXPECT_LT((look.pixel_noise - pixel() * one).norm(), 1e-12);
+  EXPECT_LT((look.frame_noise - (attitude() + position()) * one).norm(), 1e-12);
+  const Eigen::Vector2d velocity(3.0, 4.0);
+  const Eigen::Matrix2d time = 0.05 * 0.05 * velocity * velocity.transpose();
+  const Eigen::Matrix2d noise = (pixel() + 3.0 * attitude() + 5.0 * position()) * one + time;
+  EXPECT_LT((look.observation.information.inverse() - noise).norm(), 1e-9);
+}
+
+TEST_F(LooksFromAbove, TrustADetectionAsItTrustsItself) {
+  LocatedDetection detection = located(0.0, 0.0);
+  detection.detection.sigma_px = 5.0;
+  EXPECT_NEAR(make({detection}).at_rest[0].pixel_noise(0, 0), std::pow(5.0 * kPixel_m, 2), 1e-12);
+}
+
+TEST_F(LooksFromAbove, ShareTheAttitudeWithAllThatStandsStill) {
+  const FrameLooks looks = make({located(0, 0), located(0, 5), located(5, 0), located(-5, 0, kCarClass)});
+  ASSERT_EQ(looks.at_rest.size(), 3U);
+  ASSERT_EQ(looks.moving.size(), 1U);
+  const Eigen::Matrix2d noise = looks.at_rest[0].observation.information.inverse();
+  const double across = 0.05 * 0.05 * (3.0 * 3.0);
+  EXPECT_NEAR(noise(0, 0), pixel() + 3.0 * 3.0 * attitude() + 5.0 * position() + across, 1e-9);
+}
+
+/// Each look has its own Jacobians; what the frame's noise does to it is the mean over the looks at rest.
+TEST_F(LooksFromAbove, HaveTheMeanOfTheirFramesNoiseInCommon) {
+  for (const bool any_at_rest : {true, false}) {
+    const int class_id = any_at_rest ? 0 : kCarClass;
+    const FrameLooks looks =
+        make({located(0, 0, class_id), located(6, 5, class_id), located(-6, 1, kCarClass)});
+    const std::vector<Look>& counted = any_at_rest ? looks.at_rest : looks.moving;
+    Eigen::Matrix2d mean = Eigen::Matrix2d::Zero();
+    for (const Look& look : counted) mean += look.frame_noise / static_cast<double>(counted.size());
+    EXPECT_LT((looks.frame_noise - mean).norm(), 1e-12);
+    EXPECT_GT((counted[0].frame_noise - counted[1].frame_noise).norm(), 1e-7);
+    for (const std::vector<Look>* kind : {&looks.at_rest, &looks.moving}) {
+      for (const Look& look : *kind) {
+        const Eigen::Matrix2d columns = look.jacobian.middleCols<2>(SharedError::kFrame);
+        EXPECT_LT((columns * columns.transpose() - mean).norm(), 1e-12);
+      }
+    }
+  }
+  EXPECT_EQ(make({}).frame_noise, Eigen::Matrix2d(Eigen::Matrix2d::Zero()));
+}
+
+TEST_F(LooksFromAbove, MoveWithTheSharedErrors) {
+  const FrameLooks looks = make({located(0.0, 0.0)});
+  const Look& look = looks.at_rest[0];
+  const CalibrationPrior prior;
+  constexpr double kDegree = kPi / 180.0;
+  // Turning about its right axis the camera looks north, about its down axis east; about its line of sight it
+  // sees the same. A late frame shows the vehicle farther back.
+  SharedError::CalibrationRow expected = SharedError::CalibrationRow::Zero();
+  expected(1, 0) = kUp_m * prior.sigma_boresight_x_deg * kDegree;
+  expected(0, 1) = kUp_m * prior.sigma_boresight_y_deg * kDegree;
+  expected.col(3) = -prior.sigma_latency_s * Eigen::Vector2d(3.0, 4.0);
+  EXPECT_LT((look.jacobian.leftCols<5>() - expected).norm(), 1e-9);
+  EXPECT_LT((look.jacobian.col(SharedError::kTime) + 0.05 * Eigen::Vector2d(3.0, 4.0)).norm(), 1e-12);
+}
+
+/// What the fix already holds of the calibration is undone in the sums' values; the offset was never in it.
+TEST_F(LooksFromAbove, AreCorrectedByOffsetAndDrift) {
+  errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.5, 0.7, -0.4;
+  drift_ << 0.2, 0.3, 0.05;
+  const LocatedDetection detection = located(6.0, 5.0);
+  const Look look = make({detection}).at_rest[0];
+  // Yaw that is more clockwise than reported turns what is seen clockwise about the vehicle.
+  const Eigen::Vector2d turned = 0.05 * Eigen::Vector2d(5.0, -6.0);
+  EXPECT_LT((look.position - (Eigen::Vector2d(6.7, 4.6) + Eigen::Vector2d(0.2, 0.3) + turned)).norm(), 1e-9);
+  const FixJacobians jacobians = jacobians_of(detection.fix, view_, kUp_m);
+  const Eigen::Vector2d value =
+      Eigen::Vector2d(6.0, 5.0) - jacobians.calibration.leftCols<5>() * errors_.calibration.mean.head<5>();
+  EXPECT_LT((look.observation.value - value).norm(), 1e-9);
+  EXPECT_EQ(look.observation.calibration_jacobian, jacobians.calibration);
+  EXPECT_EQ(look.observation.node_jacobian, jacobians.node);
+  EXPECT_EQ(look.observation.span.first, span_.first);
+}
+
+TEST_F(LooksFromAbove, StandOnTheGroundThatIsStated) {
+  ProjectorConfig raised;
+  raised.ground_height_above_home_m = 10.0;
+  projector_ = Projector(raised, intrinsics());
+  const Look look = make({located(0.0, 0.0)}).at_rest[0];
+  EXPECT_NEAR(look.jacobian(1, 0), 0.5 * kUp_m * CalibrationPrior{}.sigma_boresight_x_deg * kPi / 180.0,
+              1e-9);
+}
+
+TEST_F(LooksFromAbove, KnowTheirSizeAndHowRareClutterIs) {
+  const Look look = make({located(3.0, -2.0, 0, 40.0)}).at_rest[0];
+  EXPECT_NEAR(look.ground_per_pixel_m, kPixel_m, 1e-12);
+  EXPECT_NEAR(look.size_m, 40.0 * kPixel_m, 1e-12);  // the smaller side
+  EXPECT_NEAR(look.clutter_density, config_.clutter_per_frame / (1280.0 * 720.0 * kPixel_m * kPixel_m),
+              1e-12);
+}
+
+TEST_F(LooksFromAbove, AreNoDuplicatesOfWhatMayMove) {
+  config_.duplicate_share = 0.5;
+  EXPECT_EQ(make({located(0, 0), located(0.1, 0)}).at_rest.size(), 1U);
+  const FrameLooks looks = make({located(0, 0), located(0.1, 0, kCarClass), located(0.2, 0, kCarClass)});
+  EXPECT_EQ(looks.at_rest.size(), 1U);
+  EXPECT_EQ(looks.moving.size(), 1U);
+}
+
+}  // namespace
+}  // namespace geoloc

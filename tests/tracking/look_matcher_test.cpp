@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/look_matcher.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tracking/resting_objects.hpp"
+
+namespace geoloc {
+namespace {
+
+using testing::append_seen;
+using testing::lone_look;
+
+constexpr double kVariance_m2 = 0.01;
+
+/// Objects that many looks have shown, whose looks and tracks share no error but the frame's.
+class MatchedLooks : public ::testing::Test {
+ protected:
+  MatchedLooks() { errors_.drift.cover(VehicleTime{}, 0.5); }
+
+  RestingObject& append(const Eigen::Vector2d& place, int hits = 100) {
+    RestingObject& object = append_seen(tracks_, errors_, place, hits, kVariance_m2);
+    object.last_look = now_;
+    return object;
+  }
+
+  /// Looks at places, of a class each.
+  const Explanation& explain(const std::vector<Eigen::Vector2d>& places, int class_id = 0) {
+    looks_.clear();
+    for (const Eigen::Vector2d& place : places) {
+      looks_.push_back(lone_look(place, kVariance_m2));
+      looks_.back().detection.class_id = class_id;
+      looks_.back().jacobian.middleCols<2>(SharedError::kFrame) =
+          frame_sigma_m_ * Eigen::Matrix2d::Identity();
+    }
+    tracks_.clear_evidence();
+    noise_.covariance = frame_sigma_m_ * frame_sigma_m_ * Eigen::Matrix2d::Identity();
+    return matcher_.explain(looks_, noise_, now_, tracks_);
+  }
+
+  std::optional<std::size_t> track_of_only_look(const Eigen::Vector2d& place, int class_id = 0) {
+    return explain({place}, class_id).match_of_look[0].track;
+  }
+
+  JointTrackerConfig config_;
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, DriftConfig{}, solver_};
+  TrackTable tracks_{20};
+  LookMatcher matcher_{config_, 20};
+  FrameNoise noise_{Eigen::Matrix2d::Zero(), 1.0, 1.0};
+  double frame_sigma_m_ = 0.0;
+  VehicleTime now_{from_seconds(100.0)};
+  std::vector<Look> looks_;
+};
+
+TEST_F(MatchedLooks, ShowTheTrackAtTheirPlace) {
+  append({0, 0});
+  append({5, 0});
+  const Explanation& explanation = explain({{5.1, 0.0}, {20.0, 0.0}});
+  EXPECT_EQ(explanation.match_of_look[0].track, 1U);
+  EXPECT_TRUE(explanation.match_of_look[0].is_certain());
+  EXPECT_FALSE(explanation.match_of_look[1].track);
+  EXPECT_FALSE(tracks_[0].is_seen);
+  EXPECT_FALSE(tracks_[0].look);
+  EXPECT_TRUE(tracks_[1].is_seen);
+  EXPECT_EQ(tracks_[1].look, 0U);
+  EXPECT_FALSE(tracks_[1].is_in_doubt);
+}
+
+/// Where a look is left alone: the noise of look and track, and of the frames in between.
+TEST_F(MatchedLooks, ReachAsFarAsTheirNoiseDoes) {
+  frame_sigma_m_ = 0.3;
+  for (const int hits : {1, 4, 100}) {
+    for (const double unseen_s : {0.0, 1.0, 50.0}) {
+      TrackTable tracks(1);
+      RestingObject& object = append_seen(tracks, errors_, {0, 0}, hits, kVariance_m2);
+      object.last_look = now_ - from_seconds(unseen_s);
+      const FrameNoise noise{0.09 * Eigen::Matrix2d::Identity(), 8.0, 1.0};
+      const double share = std::min(1.0, 8.0 / hits);
+      const double fresh = 1.0 - share * std::exp(-unseen_s);
+      const double variance = kVariance_m2 + kVariance_m2 / hits + fresh * share * 0.09 + fresh * 0.09;
+      const double gate_m = std::sqrt(config_.gate * variance);
+      for (const double factor : {0.98, 1.02}) {
+        Look look = lone_look({0.0, factor * gate_m}, kVariance_m2);
+        look.jacobian.middleCols<2>(SharedError::kFrame) = 0.3 * Eigen::Matrix2d::Identity();
+        const Explanation& explanation = matcher_.explain({look}, noise, now_, tracks);
+        EXPECT_EQ(explanation.match_of_look[0].track.has_value() || tracks[0].is_in_doubt, factor < 1.0)
+            << hits << " hits, " << unseen_s << " s";
+        tracks.clear_evidence();
+      }
+    }
+  }
+}
+
+/// Calibration and drift that shift look and track alike cancel; what shifts the one alone does not.
+TEST_F(MatchedLooks, ReachAsFarAsWhatShiftsThemAndNotTheTrack) {
+  RestingObject& object = append({0, 0});
+  SharedError::Row shifted = SharedError::Row::Zero();
+  shifted(0, 2) = 0.5;
+  for (const bool is_shared : {true, false}) {
+    object.sensitivity = is_shared ? shifted : SharedError::Row(SharedError::Row::Zero());
+    const double variance = kVariance_m2 * 1.01 + (is_shared ? 0.0 : 0.25);
+    for (const double factor : {0.98, 1.02}) {
+      Look look = lone_look({factor * std::sqrt(config_.gate * variance), 0.0}, kVariance_m2);
+      look.jacobian = shifted;
+      tracks_.clear_evidence();
+      matcher_.explain({look}, noise_, now_, tracks_);
+      EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << is_shared;
+    }
+  }
+}
+
+TEST_F(MatchedLooks, OfAnotherClassAreFartherAway) {
+  append({0, 0});
+  const double sigma_m = std::sqrt(kVariance_m2 * 1.01);
+  const auto is_reached = [&](double squared_distance, int class_id) {
+    track_of_only_look({std::sqrt(squared_distance) * sigma_m, 0.0}, class_id);
+    return tracks_[0].is_seen || tracks_[0].is_in_doubt;
+  };
+  EXPECT_TRUE(is_reached(config_.gate - 0.2, 0));
+  EXPECT_FALSE(is_reached(config_.gate + 0.2, 0));
+  EXPECT_TRUE(is_reached(config_.gate - config_.class_mismatch_cost - 0.2, 3));
+  EXPECT_FALSE(is_reached(config_.gate - config_.class_mismatch_cost + 0.2, 3));
+}
+
+TEST_F(MatchedLooks, AreShiftedByTheirMedian) {
+  for (const double east : {0.0, 5.0, 10.0}) append({east, 0});
+  const Explanation& explanation = explain({{0.1, 0.02}, {5.15, -0.06}, {10.02, 0.01}, {30.0, 0.0}});
+  EXPECT_LT((explanation.common_shift - Eigen::Vector2d(0.1, 0.01)).norm(), 1e-12);
+}
+
+TEST_F(MatchedLooks, OfOneTrackTellNoShift) {
+  append({0, 0});
+  EXPECT_EQ(explain({{0.1, 0.1}, {30.0, 0.0}}).common_shift, Eigen::Vector2d(0.0, 0.0));
+  append({5, 0});
+  EXPECT_LT((explain({{0.1, 0.1}, {5.2, 0.2}}).common_shift - Eigen::Vector2d(0.2, 0.2)).norm(), 1e-12);
+}
+
+TEST_F(MatchedLooks, ThatMayShowEitherOfTwoTellNothingOfThem) {
+  frame_sigma_m_ = 0.3;
+  append({0, 0});
+  append({0.3, 0});
+  const Explanation& explanation = explain({{0.15, 0.0}});
+  EXPECT_TRUE(explanation.match_of_look[0].is_ambiguous);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_FALSE(tracks_[k].is_seen);
+    EXPECT_TRUE(tracks_[k].is_in_doubt);
+  }
+}
+
+/// Of two tracks at one place, one of which is young, the older one is seen.
+class Twins : public MatchedLooks {
+ protected:
+  Twins() { frame_sigma_m_ = 0.3; }
+
+  /// Whether the look between two is the first track's, certainly.
+  bool is_the_firsts(const Eigen::Vector2d& place = {0.15, 0.0}) {
+    const auto& match = explain({place}).match_of_look[0];
+    return match.is_certain() && match.track == 0U;
+  }
+};
+
+TEST_F(Twins, AreTheOlderOnesWhileOneIsYoung) {
+  RestingObject& older = append({0, 0});
+  RestingObject& younger = append({0.3, 0});
+  younger.track.hits = 2;
+  EXPECT_TRUE(is_the_firsts());
+  EXPECT_TRUE(tracks_[0].is_seen);
+  EXPECT_FALSE(tracks_[1].is_in_doubt);
+  // What the match says is what the pair by itself does.
+  const auto match = explain({{0.15, 0.0}}).match_of_look[0];
+  EXPECT_LT((match.innovation - Eigen::Vector2d(0.15, 0.0)).norm(), 1e-9);
+  younger.track.hits = 3;
+  EXPECT_FALSE(is_the_firsts());
+  younger.track.hits = 2;
+  older.neighbours.seen_apart(younger.track.id);
+  EXPECT_FALSE(is_the_firsts());
+}
+
+TEST_F(Twins, OlderIsTheConfirmedOneThenTheOneSeenOftenerThenTheFirst) {
+  RestingObject& first = append({0, 0});
+  RestingObject& second = append({0.3, 0});
+  first.last_look = second.last_look = now_ - from_seconds(50.0);  // the frames' noise has changed since
+  const auto seen_one = [&]() -> std::optional<std::size_t> {
+    const auto& match = explain({{0.15, 0.0}}).match_of_look[0];
+    if (!match.is_certain()) return std::nullopt;
+    return match.track;
+  };
+  first.track.hits = second.track.hits = 2;
+  EXPECT_EQ(seen_one(), 0U);
+  first.track.hits = 1;
+  EXPECT_EQ(seen_one(), 1U);
+  first.track.status = TrackStatus::kConfirmed;
+  EXPECT_EQ(seen_one(), 0U);
+}
+
+TEST_F(Twins, AreNotTwinsWhereAnotherLookMayShowThem) {
+  append({0, 0});
+  append({0.3, 0}).track.hits = 2;
+  const Explanation& explanation = explain({{0.15, 0.0}, {0.16, 0.28}});
+  EXPECT_FALSE(explanation.match_of_look[0].is_certain());
+}
+
+TEST_F(Twins, OfADoubtfulLookAtOneTrackAreNone) {
+  append({0, 0});
+  const double far_m = std::sqrt(0.9 * config_.gate * (kVariance_m2 + 0.09));
+  EXPECT_FALSE(is_the_firsts({far_m, 0.0}));
+  EXPECT_TRUE(tracks_[0].is_in_doubt);
+}
+
+TEST_F(MatchedLooks, OfAnEmptyFrameAreNone) {
+  append({0, 0});
+  EXPECT_TRUE(explain({}).match_of_look.empty());
+  EXPECT_FALSE(tracks_[0].is_seen);
+}
+
+}  // namespace
+}  // namespace geoloc
