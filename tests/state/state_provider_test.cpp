@@ -121,6 +121,84 @@ TEST(StateProvider, TurnsNorthWithTheMeridian) {
   EXPECT_NEAR(std::atan2(nose.x(), nose.y()) * kDegPerRad, -0.155, 0.001);
 }
 
+TEST(StateProvider, RefusesPositionsBeyondTheReachOfOneFrame) {
+  StateProvider provider(StateConfig{});
+  provider.add(position(0.0, 0, 20));
+  provider.add(position(0.1, 199e3, 20));
+  EXPECT_EQ(provider.counters().too_far, 0U);
+  provider.add(position(0.2, 202e3, 20));
+  EXPECT_EQ(provider.counters().too_far, 1U);
+  EXPECT_EQ(provider.counters().positions, 2U);
+}
+
+TEST(StateProvider, KeepsItsFrameWhereItBegan) {
+  StateProvider provider(StateConfig{});
+  EXPECT_FALSE(provider.local_frame());
+  provider.add(position(0.0, 0, 20));
+  provider.add(position(0.1, 100, 20));
+  ASSERT_TRUE(provider.local_frame());
+  EXPECT_EQ(provider.local_frame()->origin().latitude_deg, kHome.latitude_deg);
+  provider.restart();
+  provider.add(position(0.0, 50, 20));
+  EXPECT_EQ(provider.local_frame()->origin().latitude_deg, kHome.latitude_deg);
+}
+
+TEST(StateProvider, TellsWhatTheReceiverLastClaimedInASampleThatWasTakenIn) {
+  StateProvider provider(StateConfig{});
+  const auto claim_at = [&](double time_s, std::optional<double> sigma_m) {
+    PositionSample sample = position(time_s, 0, 20);
+    sample.sigma_horizontal_m = sigma_m;
+    provider.add(sample);
+  };
+  for (int i = 0; i <= 10; ++i) provider.add(AttitudeSample{at_s(0.1 * i), {}});
+  claim_at(0.0, 0.7);
+  claim_at(0.2, 0.9);
+  EXPECT_EQ(provider.at(at_s(0.1))->sigma_horizontal_m, 0.9);
+  claim_at(0.2, 5.0);  // a duplicate
+  EXPECT_EQ(provider.counters().duplicates, 1U);
+  EXPECT_EQ(provider.at(at_s(0.1))->sigma_horizontal_m, 0.9);
+  claim_at(0.4, std::nullopt);
+  EXPECT_FALSE(provider.at(at_s(0.1))->sigma_horizontal_m);
+}
+
+/// Half way between two attitudes: the mean of each angle, or half of the one turn between them.
+TEST(StateProvider, InterpolatesTheAttitudeAsConfigured) {
+  const EulerAngles before{0.0, 0.0, 0.2}, after{1.0, 0.8, 1.6};
+  for (const auto how : {AttitudeInterpolation::kCircular, AttitudeInterpolation::kSlerp}) {
+    StateConfig config;
+    config.attitude_interpolation = how;
+    StateProvider provider(config);
+    provider.add(position(0.0, 0, 20));
+    provider.add(position(0.4, 0, 20));
+    provider.add(AttitudeSample{at_s(0.0), before});
+    provider.add(AttitudeSample{at_s(0.4), after});
+    const Eigen::Quaterniond rotation = provider.at(at_s(0.2))->enu_from_body.rotation;
+    Eigen::Quaterniond expected = ned_from_body({0.5, 0.4, 0.9});
+    if (how == AttitudeInterpolation::kSlerp) {
+      const Eigen::AngleAxisd turn(ned_from_body(before).conjugate() * ned_from_body(after));
+      expected =
+          ned_from_body(before) * Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * turn.angle(), turn.axis()));
+    }
+    EXPECT_LT((enu_from_ned() * expected).angularDistance(rotation), 1e-6);
+    // The rate is that of the one turn, either way.
+    const Eigen::AngleAxisd turn(ned_from_body(before).conjugate() * ned_from_body(after));
+    EXPECT_LT((provider.at(at_s(0.2))->angular_velocity_in_body - turn.angle() / 0.4 * turn.axis()).norm(),
+              1e-9);
+  }
+}
+
+TEST(StateProvider, CountsWhatItDoesNotUse) {
+  StateProvider provider(StateConfig{});
+  provider.add(position(10.0, 0, 20));
+  provider.add(AttitudeSample{at_s(10.0), {}});
+  provider.add(AttitudeSample{at_s(10.0), {}});
+  provider.add(AttitudeSample{at_s(9000.0), {}});  // far from the others' times
+  EXPECT_EQ(provider.counters().duplicates, 1U);
+  EXPECT_EQ(provider.counters().suspect_stamps, 1U);
+  EXPECT_EQ(provider.counters().attitudes, 1U);
+  EXPECT_EQ(provider.counters().positions, 1U);
+}
+
 TEST(StateConfig, NamesEveryProblem) {
   StateConfig config;
   config.max_gap_s = -1;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <random>
@@ -121,6 +122,112 @@ TEST_F(PaperTrackerLife, RefusesObjectsBeyondItsRoomAndCountsThem) {
   see({{-12, 0}, {-6, 0}, {0, 0}, {6, 0}, {12, 0}});
   EXPECT_EQ(tracks().size(), 3U);
   EXPECT_EQ(tracker_->counters().refused, 2U);
+}
+
+/// One axis of the textbook's filter: a constant measured with R, and Q added after each measurement.
+TEST_F(PaperTrackerLife, EstimatesByTheTextbooksKalmanFilter) {
+  PaperTrackerConfig config;
+  config.process_sigma_m = 0.2;
+  tracker_.emplace(config, 64);
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0.0, 0.5);
+  const double r = config.measurement_sigma_m * config.measurement_sigma_m, q = 0.2 * 0.2;
+  double mean = 0.0, variance = 0.0;
+  for (int i = 0; i < 12; ++i) {
+    const double measured = 3.0 + noise(random);
+    see({{measured, -2.0}});
+    const double gain = i == 0 ? 1.0 : variance / (variance + r);
+    mean += gain * (measured - mean);
+    variance = i == 0 ? r : (1.0 - gain) * variance + q;
+    ASSERT_EQ(tracks().size(), 1U);
+    EXPECT_NEAR(tracks()[0].position_in_enu.mean.x(), mean, 1e-12);
+    EXPECT_NEAR(tracks()[0].position_in_enu.covariance(0, 0), variance, 1e-12);
+    EXPECT_NEAR(tracks()[0].position_in_enu.covariance(0, 1), 0.0, 1e-12);
+  }
+}
+
+TEST_F(PaperTrackerLife, MatchesWithinTheGate) {
+  const double sigma_m = std::sqrt(2.0) * config_.measurement_sigma_m;  // of two measurements' difference
+  for (const double share : {0.98, 1.02}) {
+    tracker_.emplace(config_, 64);
+    see({{0, 0}});
+    see({{0, share * config_.gate * sigma_m}});
+    EXPECT_EQ(tracks().size(), share < 1.0 ? 1U : 2U);
+  }
+}
+
+/// What the detection's sigma makes on the ground is added to R, at the gate and in the estimate.
+TEST_F(PaperTrackerLife, TrustsADetectionLessThatTrustsItselfLess) {
+  LocatedDetection located{};
+  located.detection.confidence = 0.9;
+  located.detection.sigma_px = 100.0;
+  located.fix.ground_from_pixel = 0.03 * Eigen::Matrix2d::Identity();  // 3 m
+  const double r = config_.measurement_sigma_m * config_.measurement_sigma_m;
+  FrameView view;
+  const double gate_m = config_.gate * std::sqrt(2.0 * (r + 9.0));
+  for (const double share : {0.98, 1.02}) {
+    tracker_.emplace(config_, 64);
+    located.fix.position_in_enu = {0.0, 0.0};
+    std::vector<LocatedDetection> detections{located};
+    tracker_->update({detections, projector_, view, local_frame_});
+    EXPECT_NEAR(tracks()[0].position_in_enu.covariance(0, 0), r + 9.0, 1e-12);
+    detections[0].fix.position_in_enu.x() = share * gate_m;
+    tracker_->update({detections, projector_, view, local_frame_});
+    ASSERT_EQ(tracks().size(), share < 1.0 ? 1U : 2U);
+    if (share > 1.0) continue;
+    EXPECT_NEAR(tracks()[0].position_in_enu.mean.x(), 0.5 * share * gate_m, 1e-9);
+    const double q = config_.process_sigma_m * config_.process_sigma_m;
+    EXPECT_NEAR(tracks()[0].position_in_enu.covariance(0, 0), 0.5 * (r + 9.0) + q, 1e-9);
+  }
+}
+
+TEST_F(PaperTrackerLife, MatchesEachDetectionToItsOwnTrackWhereFarTracksLieBetween) {
+  see({{0, 0}, {-12, 0}, {10, 0}, {12, 6}});
+  see({{10.3, 0}, {0.3, 0}});
+  ASSERT_EQ(tracks().size(), 4U);
+  EXPECT_EQ(tracks()[0].hits, 2);
+  EXPECT_EQ(tracks()[1].hits, 1);
+  EXPECT_EQ(tracks()[2].hits, 2);
+  EXPECT_EQ(tracks()[3].hits, 1);
+  EXPECT_NEAR(tracks()[2].position_in_enu.mean.x(), 10.15, 1e-9);
+}
+
+TEST_F(PaperTrackerLife, CountsWhatBecomesOfTracks) {
+  see({{0, 0}, {5, 0}});
+  for (int i = 0; i < config_.max_penalty; ++i) see({{0, 0}});
+  EXPECT_EQ(tracker_->counters().created, 2U);
+  EXPECT_EQ(tracker_->counters().removed, 1U);
+  EXPECT_EQ(tracks()[0].penalty, 0);
+}
+
+/// Two estimates of one object are combined by their information.
+TEST_F(PaperTrackerLife, MergesConfirmedNeighboursWithinTheDistance) {
+  for (const double share : {0.99, 1.01}) {
+    PaperTrackerConfig config;
+    config.measurement_sigma_m = 0.02;
+    config.process_sigma_m = 0.0;
+    config.confirm_hits = 3;
+    config.merge_distance_m = 0.5;
+    tracker_.emplace(config, 64);
+    const double apart_m = share * config.merge_distance_m;
+    for (int i = 0; i < 2; ++i) see({{0, 0}, {apart_m, 0}});
+    EXPECT_EQ(tracks().size(), 2U);  // not confirmed yet
+    see({{0, 0}, {apart_m, 0}});
+    if (share > 1.0) {
+      EXPECT_EQ(tracks().size(), 2U);
+      continue;
+    }
+    ASSERT_EQ(tracks().size(), 1U);
+    EXPECT_NEAR(tracks()[0].position_in_enu.mean.x(), 0.5 * apart_m, 1e-9);
+    EXPECT_NEAR(tracks()[0].position_in_enu.covariance(0, 0), 0.0004 / 6.0, 1e-9);
+    EXPECT_EQ(tracks()[0].hits, 6);
+  }
+}
+
+TEST_F(PaperTrackerLife, AnswersWhatItDoesNotLearn) {
+  EXPECT_FALSE(tracker_->calibration_of_camera());
+  EXPECT_EQ(tracker_->calibration().mean, CalibrationVector(CalibrationVector::Zero()));
+  EXPECT_TRUE(tracker_->known_points().empty());
 }
 
 TEST(PaperTrackerConfig, NamesEveryProblem) {
