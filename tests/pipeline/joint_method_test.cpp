@@ -331,8 +331,8 @@ TEST(JointCalibration, FramesAreLocatedWithWhatIsKnownOfTheErrors) {
   EXPECT_LT((flight.geolocator().located()[0].fix.position_in_enu - expected).norm(), 1e-3);
 }
 
-/// Of the boresight about the camera's right axis after ten seconds above objects in a circle around the
-/// vehicle, which turns on the spot: that tells the boresight from all that stays when the vehicle turns.
+/// Sigma of the boresight about the camera's right axis after ten seconds above objects in a circle around
+/// the vehicle, which turns on the spot: that tells the boresight from all that stays when the vehicle turns.
 double sigma_of_boresight_rad(int objects, double period_s) {
   GeolocatorConfig config;
   config.joint.sigma_attitude_deg = 1.0;  // so that all else is small beside it

@@ -33,8 +33,8 @@ struct Pose {
   double roll = 0.0, pitch = 0.0, yaw = 0.0;
 };
 
-/// Of a plane ground point at height 0: the camera looks along the body's down axis, its top towards the
-/// nose, from the vehicle's position. The body's axes are the columns of Rz(yaw) Ry(pitch) Rx(roll) in
+/// Pixel of a plane ground point at height 0: the camera looks along the body's down axis, its top towards
+/// the nose, from the vehicle's position. The body's axes are the columns of Rz(yaw) Ry(pitch) Rx(roll) in
 /// north-east-down, written out.
 inline std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& place, const Pose& pose) {
   const double cr = std::cos(pose.roll), sr = std::sin(pose.roll);

@@ -73,21 +73,33 @@ TEST(JointAssociation, ClaimsNothingOfALoneLookFarFromItsTrack) {
   EXPECT_FALSE(solve({{0.5, 0}}, {{0, 0}}, 0.5)[0].is_ambiguous);
 }
 
+/// All residuals of some pairs as one, with its Jacobian by the shared error and the pairs' own covariance.
+struct Stacked {
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;
+  Eigen::MatrixXd own_covariance;
+};
+
+Stacked stacked(const std::vector<Pairing>& pairs) {
+  const auto n = static_cast<Eigen::Index>(pairs.size());
+  Stacked all{Eigen::VectorXd(2 * n), Eigen::MatrixXd(2 * n, SharedError::kSize),
+              Eigen::MatrixXd::Zero(2 * n, 2 * n)};
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Pairing& pair = pairs[static_cast<std::size_t>(i)];
+    all.residual.segment<2>(2 * i) = pair.residual;
+    all.jacobian.middleRows<2>(2 * i) = pair.jacobian;
+    all.own_covariance.block<2, 2>(2 * i, 2 * i) = pair.own_covariance;
+  }
+  return all;
+}
+
 /// Cost of an explanation by its definition: the joint chi-square of all residuals, and the gate for each
 /// look left alone.
 double joint_cost(const std::vector<Pairing>& pairs, std::size_t alone) {
-  const auto n = static_cast<Eigen::Index>(pairs.size());
-  Eigen::VectorXd residual(2 * n);
-  Eigen::MatrixXd jacobian(2 * n, SharedError::kSize);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Pairing& pair = pairs[static_cast<std::size_t>(i)];
-    residual.segment<2>(2 * i) = pair.residual;
-    jacobian.middleRows<2>(2 * i) = pair.jacobian;
-    covariance.block<2, 2>(2 * i, 2 * i) = pair.own_covariance;
-  }
-  covariance += jacobian * jacobian.transpose();
-  return (n == 0 ? 0.0 : residual.dot(covariance.llt().solve(residual))) + kGate * static_cast<double>(alone);
+  const auto [residual, jacobian, own] = stacked(pairs);
+  const Eigen::MatrixXd covariance = own + jacobian * jacobian.transpose();
+  return (pairs.empty() ? 0.0 : residual.dot(covariance.llt().solve(residual))) +
+         kGate * static_cast<double>(alone);
 }
 
 /// The least cost of all one-to-one explanations, by trying every one.
@@ -154,17 +166,8 @@ struct Conditioned {
 Conditioned conditioned_on(const std::vector<Pairing>& pairs) {
   Conditioned result;
   if (pairs.empty()) return result;
-  const auto n = static_cast<Eigen::Index>(pairs.size());
-  Eigen::VectorXd residual(2 * n);
-  Eigen::MatrixXd jacobian(2 * n, SharedError::kSize);
-  Eigen::MatrixXd own = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Pairing& pair = pairs[static_cast<std::size_t>(i)];
-    residual.segment<2>(2 * i) = pair.residual;
-    jacobian.middleRows<2>(2 * i) = pair.jacobian;
-    own.block<2, 2>(2 * i, 2 * i) = pair.own_covariance;
-    result.cost += pair.penalty;
-  }
+  const auto [residual, jacobian, own] = stacked(pairs);
+  for (const Pairing& pair : pairs) result.cost += pair.penalty;
   const Eigen::MatrixXd total = own + jacobian * jacobian.transpose();
   const Eigen::MatrixXd gain = jacobian.transpose() * total.inverse();
   result.mean = gain * residual;
