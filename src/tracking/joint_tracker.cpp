@@ -202,10 +202,9 @@ void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
   kept.landmark->merge(*gone.landmark, errors_.drift);
   kept.pixel_information += gone.pixel_information;
   kept.is_known = kept.is_known || gone.is_known;
-  merge_life(kept, gone);
+  merge_into(kept, gone);
   known_points_.rename(gone.track.id, kept.track.id);
   for (RestingObject& track : tracks_) track.neighbours.rename(gone.track.id, kept.track.id);
-  merge_records(kept.track, gone.track);
   tracks_.remove(gone_row);
   ++book_.counters.merged;
 }

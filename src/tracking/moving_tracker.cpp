@@ -194,9 +194,8 @@ void MovingTracker::merge(std::size_t kept_row, std::size_t gone_row) {
     kept.track.position_in_enu = gone.track.position_in_enu;
     kept.track.velocity_in_enu = gone.track.velocity_in_enu;
   }
-  merge_life(kept, gone);
+  merge_into(kept, gone);
   for (MovingObject& object : objects_) object.neighbours.rename(gone.track.id, kept.track.id);
-  merge_records(kept.track, gone.track);
   remove(gone_row);
 }
 

@@ -58,10 +58,11 @@ inline void confirm_if_probable(TrackedObject& object, double confirm_probabilit
 }
 
 /// Two turned out to be one: what `gone` knew besides its position goes to `kept`.
-inline void merge_life(TrackedObject& kept, const TrackedObject& gone) {
+inline void merge_into(TrackedObject& kept, const TrackedObject& gone) {
   kept.last_look = std::max(kept.last_look, gone.last_look);
   kept.existence.merge(gone.existence);
   kept.neighbours.merge(gone.neighbours);
+  merge_records(kept.track, gone.track);
 }
 
 }  // namespace geoloc

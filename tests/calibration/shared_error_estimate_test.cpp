@@ -63,6 +63,17 @@ TEST_F(SharedErrors, BeginAsThePrior) {
   EXPECT_EQ(estimate_.offset_sigma_m(), accuracy_.offset_sigma_m(1.0));
 }
 
+/// A component frozen by a sigma of 0 leaves the others' roots what they are.
+TEST(FrozenSharedErrors, HaveARootBesideTheOthers) {
+  CalibrationPrior prior;
+  prior.sigma_boresight_y_deg = 0.0;
+  const ArrowheadSolver solver(prior, DriftConfig{}.max_nodes);
+  const SharedErrorEstimate estimate({1.0, 0.2, 0.02}, DriftConfig{}, solver);
+  EXPECT_NEAR(estimate.calibration_root(Index::kBoresight + 1, Index::kBoresight + 1), 0.0, 1e-8);
+  for (const int free : {Index::kBoresight, Index::kBoresight + 2, Index::kLatency, Index::kHeight})
+    EXPECT_NEAR(estimate.calibration_root(free, free), estimate.calibration.sigma(free), 1e-9);
+}
+
 TEST_F(SharedErrors, TakeOverWhatWasSolved) {
   learn();
   const ArrowheadSolver::Solution again = solution();

@@ -118,7 +118,7 @@ std::vector<PlacedObject> random_occluders(const std::vector<PlacedObject>& targ
   return occluders;
 }
 
-/// Of a wall, a pole or the like.
+/// Outline of a wall, a pole or the like.
 std::vector<Eigen::Vector2d> bar_outline(const Eigen::Vector2d& middle, double height_m, Random& random) {
   const Eigen::Vector2d along = offset(random.uniform(0.1, 0.6) * height_m, random);
   const double half_width_m = 0.5 * std::exp(random.uniform(std::log(0.1), std::log(6.0)));
@@ -126,7 +126,7 @@ std::vector<Eigen::Vector2d> bar_outline(const Eigen::Vector2d& middle, double h
   return {middle - along - across, middle - along + across, middle + along + across, middle + along - across};
 }
 
-/// Of a crown or a cloud.
+/// Outline of a crown or a cloud.
 std::vector<Eigen::Vector2d> blob_outline(const Eigen::Vector2d& middle, Random& random) {
   constexpr int kCorners = 24;
   const double radius_m = random.uniform(0.4, 4.0);
