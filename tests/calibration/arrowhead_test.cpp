@@ -24,13 +24,17 @@ class ArrowheadProblem : public ::testing::Test {
     LandmarkObservation observation;
   };
 
-  void make(std::size_t objects, int looks, double duration_s) {
+  enum class Order { kByTurns, kOneAfterAnother };
+
+  void make(std::size_t objects, int looks, double duration_s, Order order = Order::kByTurns) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
     landmarks_.assign(objects, Landmark{});
     for (int i = 0; i < looks; ++i) {
       Look look;
-      look.object = static_cast<std::size_t>(i) % objects;
+      const auto number = static_cast<std::size_t>(i);
+      look.object =
+          order == Order::kByTurns ? number % objects : number * objects / static_cast<std::size_t>(looks);
       auto& o = look.observation;
       o.span = drift_.cover(VehicleTime{from_seconds(duration_s * i / looks)}, kWanderSigma_m);
       for (double& value : o.calibration_jacobian.reshaped()) value = normal(random);
@@ -112,6 +116,24 @@ class ArrowheadProblem : public ::testing::Test {
     return {A.colPivHouseholderQr().solve(b), (A.transpose() * A).inverse()};
   }
 
+  void expect_objects_of(const ArrowheadSolver::Solution& solution, const Dense& expected) const {
+    const auto covariance = [&](std::size_t i, std::size_t j) {
+      return expected.covariance.block<2, 2>(2 * static_cast<Eigen::Index>(i),
+                                             2 * static_cast<Eigen::Index>(j));
+    };
+    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
+      const Eigen::Vector2d position = landmarks_[i].position(calibration_.mean, drift_);
+      EXPECT_LT((position - expected.solution.segment<2>(2 * static_cast<Eigen::Index>(i))).norm(), 1e-8);
+      EXPECT_LT((solution.covariance(landmarks_[i]) - covariance(i, i)).norm(), 1e-8);
+      for (std::size_t j = 0; j < i; ++j) {
+        const Eigen::Matrix2d difference =
+            covariance(i, i) + covariance(j, j) - covariance(i, j) - covariance(j, i);
+        EXPECT_LT((solution.covariance_of_difference(landmarks_[i], landmarks_[j]) - difference).norm(),
+                  1e-8);
+      }
+    }
+  }
+
   DriftTimeline drift_{DriftConfig{}};
   CalibrationPrior prior_;
   ArrowheadSolver solver_{prior_, DriftConfig{}.max_nodes};
@@ -133,16 +155,14 @@ TEST_F(ArrowheadProblem, SolutionAndCovariancesAreThoseOfDenseLeastSquares) {
       (solution.newest_node_covariance() - expected.covariance.bottomRightCorner<kNodeSize, kNodeSize>())
           .norm(),
       1e-8);
-  for (Eigen::Index j = 0; j < 5; ++j) {
-    const Landmark& landmark = landmarks_[static_cast<std::size_t>(j)];
-    EXPECT_LT((landmark.position(calibration_.mean, drift_) - expected.solution.segment<2>(2 * j)).norm(),
-              1e-8);
-    EXPECT_LT((solution.covariance(landmark) - expected.covariance.block<2, 2>(2 * j, 2 * j)).norm(), 1e-8);
-  }
-  const Eigen::Matrix2d difference =
-      expected.covariance.block<2, 2>(0, 0) + expected.covariance.block<2, 2>(2, 2) -
-      expected.covariance.block<2, 2>(0, 2) - expected.covariance.block<2, 2>(2, 0);
-  EXPECT_LT((solution.covariance_of_difference(landmarks_[0], landmarks_[1]) - difference).norm(), 1e-8);
+  expect_objects_of(solution, expected);
+}
+
+/// As on a flight, each object is seen at a few nodes only: none before those concerns it.
+TEST_F(ArrowheadProblem, ObjectsSeenOneAfterAnotherAreThoseOfDenseLeastSquares) {
+  make(5, 400, 170.0, Order::kOneAfterAnother);
+  const ArrowheadSolver::Solution solution = solve();
+  expect_objects_of(solution, dense({0, 1, 2, 3, 4}));
 }
 
 TEST_F(ArrowheadProblem, MergingSumsIsHavingSeenOneObject) {

@@ -48,6 +48,18 @@ TEST(Attitude, EulerAnglesOfAVerticalNoseGiveTheSameRotation) {
   }
 }
 
+/// Rounding may make the sine of the pitch greater than 1.
+TEST(Attitude, EulerAnglesOfAVerticalNoseAreFiniteThoughTheRotationIsRounded) {
+  for (const double pitch : {-kPi / 2, kPi / 2}) {
+    const Eigen::Quaterniond exact = ned_from_body({0.0, pitch, 0.0});
+    for (const double factor : {1.0 - 1e-15, 1.0, 1.0 + 1e-15}) {
+      const EulerAngles angles = euler_angles(Eigen::Quaterniond(factor * exact.coeffs()));
+      EXPECT_NEAR(angles.pitch_rad, pitch, 1e-6);
+      EXPECT_NEAR(angles.yaw_rad, 0.0, 1e-6);
+    }
+  }
+}
+
 TEST(Rigid3, ComposesAndInverts) {
   const Rigid3d b_from_a{ned_from_body({0.1, 0.2, 0.3}), {1, 2, 3}};
   const Rigid3d c_from_b{ned_from_body({-1.0, 0.5, 2.0}), {-4, 5, 6}};

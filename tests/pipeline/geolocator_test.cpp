@@ -410,6 +410,25 @@ TEST(Geolocator, DoesNotMindTheOrderOfDetections) {
   }
 }
 
+/// A detector without non-maximum suppression; sorting must not mind.
+TEST(Geolocator, MakesOneObjectOfABoxHoweverOftenItIsListed) {
+  Flight flight;
+  std::vector<Detection> all_over;
+  for (int i = 0; i < 200; ++i) {
+    all_over.push_back(box_at({100.0 + 50.0 * (i % 20), 100.0 + 50.0 * (i / 20)}));
+    all_over.back().confidence = 0.95;
+  }
+  flight.process(1.0, all_over);
+  const Detection box = box_at({300.0, 200.0});
+  flight.process(1.1, std::vector<Detection>(100, box));
+  const auto& located = flight.geolocator().located();
+  ASSERT_EQ(located.size(), 100U);
+  for (const LocatedDetection& one : located) EXPECT_EQ(one.detection.box.centre(), box.box.centre());
+  Flight alone;
+  alone.process(1.1, std::vector<Detection>(100, box));
+  EXPECT_EQ(alone.tracks().size(), 1U);
+}
+
 TEST(Geolocator, GuessesNothingWithoutState) {
   Flight flight;
   flight.fly_until(1.0);

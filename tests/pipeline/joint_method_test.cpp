@@ -69,6 +69,16 @@ TEST(JointLifeCycle, AMissCountsAgainstAnObjectUntilItIsDeleted) {
   EXPECT_EQ(only_track(flight).id, 2U);  // never used again
 }
 
+TEST(JointLifeCycle, WhatIsJustAsProbableAsItMustBeIsNotDeleted) {
+  GeolocatorConfig config;
+  config.joint.birth_probability = config.joint.delete_probability = 0.5;
+  NadirFlight flight = hovering(config);
+  flight.see(0.5, {kPlace});
+  EXPECT_EQ(only_track(flight).existence, 0.5);
+  flight.see(1.0, {});
+  EXPECT_TRUE(flight.tracks().empty());
+}
+
 TEST(JointLifeCycle, ALookMakesGoodForAMiss) {
   NadirFlight flight = hovering();
   flight.see(0.5, {kPlace});
@@ -516,6 +526,25 @@ TEST(JointKnownPoints, AreSearchedForAnewWhenTheirObjectIsGone) {
   for (int frame = 0; frame < 60; ++frame, time_s += 0.1) flight.see(time_s, {kPlace});
   EXPECT_EQ(flight.geolocator().known_points()[0].status, KnownPointStatus::kMatched);
   EXPECT_EQ(flight.geolocator().known_points()[0].track_id, only_track(flight).id);
+}
+
+/// Nothing is at the point, and then something is: it takes three looks to be weighed at all.
+TEST(JointKnownPoints, TakeNoNoticeOfWhatWasSeenOnceOrTwice) {
+  GeolocatorConfig config;
+  KnownPoint point;
+  const Eigen::Vector2d place = kPlace + Eigen::Vector2d(-6.0, 0.0);
+  point.position = geodetic_of(place);
+  config.known_points = {point};
+  NadirFlight flight = hovering(config);
+  double time_s = 0.5;
+  for (int frame = 0; frame < 40; ++frame, time_s += 0.1) flight.see(time_s, {kPlace});
+  for (int look = 1; look <= 3; ++look, time_s += 0.1) {
+    EXPECT_EQ(flight.geolocator().known_points()[0].status, KnownPointStatus::kNoObject) << look;
+    flight.see(time_s, {kPlace, place});
+    ASSERT_EQ(flight.tracks().size(), 2U);
+    EXPECT_EQ(flight.tracks()[1].hits, look);
+  }
+  EXPECT_EQ(flight.geolocator().known_points()[0].status, KnownPointStatus::kMatched);
 }
 
 /// Twenty frames, none of them within a tenth of the image's height of its edge: 72 px, 1.6 m on the ground.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -86,6 +87,19 @@ TEST(Projector, TellsWhyThereIsNoFix) {
   const Projector folded(config, {1280, 720, 914, 914, 639.5, 359.5, {-0.24, 0, 0, 0, 0}});
   EXPECT_EQ(folded.project({5000.0, 360.0}, pose_of({"", 20, -90, 0, 0})).error(), NoFix::kNoRay);
   EXPECT_FALSE(projector.reproject({0.0, 0.0}, pose_of({"", 20, 80, 0, 0})));  // behind
+}
+
+/// Straight down from 20 m.
+TEST(Projector, ReachesAsFarAsItsRangeAndNoFarther) {
+  const CameraIntrinsics straight;
+  const Rigid3d looking_down{Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 20.0}};
+  const auto has_fix = [&](double max_range_m) {
+    ProjectorConfig config;
+    config.max_range_m = max_range_m;
+    return Projector(config, straight).project({straight.cx_px, straight.cy_px}, looking_down).has_value();
+  };
+  EXPECT_TRUE(has_fix(20.0));
+  EXPECT_FALSE(has_fix(std::nextafter(20.0, 0.0)));
 }
 
 TEST(Projector, SeesWhatIsInTheImageAwayFromItsEdge) {

@@ -73,6 +73,16 @@ TEST(JointAssociation, ClaimsNothingOfALoneLookFarFromItsTrack) {
   EXPECT_FALSE(solve({{0.5, 0}}, {{0, 0}}, 0.5)[0].is_ambiguous);
 }
 
+TEST(JointAssociation, OfTwoExplanationsThatAreEquallyGoodTakesTheFirst) {
+  JointAssociation association(5, 5);
+  for (const double side : {-1.0, 1.0}) {
+    association.begin(1, kGate, 0.0);
+    association.add(pairing(0, 3, {side * 0.1, 0.0}, 0.5));
+    association.add(pairing(0, 1, {side * -0.1, 0.0}, 0.5));
+    EXPECT_EQ(association.solve()[0].track, 3U);
+  }
+}
+
 /// All residuals of some pairs as one, with its Jacobian by the shared error and the pairs' own covariance.
 struct Stacked {
   Eigen::VectorXd residual;
@@ -231,6 +241,22 @@ TEST_F(JointFrameOfTwoLooks, WithoutAChoiceEachLookIsItsTracksByItself) {
     const Eigen::Matrix2d covariance = pair.own_covariance + pair.jacobian * pair.jacobian.transpose();
     EXPECT_LT((match.innovation_covariance - covariance).norm(), 1e-12);
   }
+}
+
+/// A frame whose second look is in doubt, and then one that has no second look.
+TEST_F(JointFrameOfTwoLooks, HaveNoPartInTheNextFrame) {
+  JointAssociation association(5, 5);
+  const Pairing sure = pairing(0, 0, {0.3, 0.0}, 0.5);
+  association.begin(2, kGate, kAmbiguity);
+  association.add(sure);
+  association.add(pairing(1, 1, {1.5, 0.0}, 0.5));
+  EXPECT_FALSE(association.solve()[1].is_certain());
+  association.begin(1, kGate, kAmbiguity);
+  association.add(sure);
+  const auto& matches = association.solve();
+  ASSERT_EQ(matches.size(), 1U);
+  EXPECT_TRUE(matches[0].is_certain());
+  EXPECT_EQ(matches[0].innovation, sure.residual);  // by itself: there is no choice
 }
 
 /// The gate is that of a pair by itself, the penalty included.

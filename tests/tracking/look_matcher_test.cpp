@@ -112,6 +112,19 @@ TEST_F(MatchedLooks, ReachAsFarAsWhatShiftsThemAndNotTheTrack) {
   }
 }
 
+/// From a centimetre to a metre.
+TEST_F(MatchedLooks, ReachAsFarAsTheDetectorsNoiseDoesOfWhateverSizeItIs) {
+  RestingObject& object = append({0, 0});
+  for (const double variance : {1e-4, 1e-2, 1.0}) {
+    const double gate_m = std::sqrt(config_.gate * (variance + kVariance_m2 / 100.0));
+    for (const double factor : {0.98, 1.02}) {
+      tracks_.clear_evidence();
+      matcher_.explain({lone_look({0.0, factor * gate_m}, variance)}, noise_, now_, tracks_);
+      EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << variance;
+    }
+  }
+}
+
 TEST_F(MatchedLooks, OfAnotherClassAreFartherAway) {
   append({0, 0});
   const double sigma_m = std::sqrt(kVariance_m2 * 1.01);

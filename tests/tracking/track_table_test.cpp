@@ -50,6 +50,18 @@ TEST(TrackTable, GivesEachRowALandmarkOfItsOwnForItsLife) {
   }
 }
 
+/// It has room for as many landmarks as for rows, and they may not move.
+TEST(TrackTable, GivesTheLandmarkOfARowThatIsGoneToANewOne) {
+  constexpr std::size_t kRows = 4;
+  TrackTable table(static_cast<int>(kRows));
+  std::set<const Landmark*> given;
+  for (std::size_t step = 0; step < 10 * kRows; ++step) {
+    if (table.is_full()) table.remove(step % kRows);
+    given.insert(table.append().landmark);
+  }
+  EXPECT_EQ(given.size(), kRows);
+}
+
 TEST(TrackTable, ForgetsWhatAFrameTold) {
   TrackTable table(2);
   RestingObject& row = table.append();
