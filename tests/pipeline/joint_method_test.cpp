@@ -486,6 +486,20 @@ TEST(JointKnownPoints, TakeTheConstantErrorOutOfAllObjects) {
   }
 }
 
+/// What all objects may be off by together, though each is known far better beside the others.
+TEST(JointKnownPoints, AreFoundAsFarAsideAsTheReceiverMayBe) {
+  const std::vector<Eigen::Vector2d> places = grid(0.0, 24.0, 8.0);
+  GeolocatorConfig config;
+  config.joint.horizontal_accuracy_m = 1.6;
+  KnownPoint point;
+  point.position = geodetic_of(places[4]);
+  config.known_points = {point};
+  NadirFlight flight = displaced(config, {1.0, -0.7});
+  for (double time_s = 1.0; time_s < 11.0; time_s += 0.1) flight.see(time_s, places);
+  EXPECT_EQ(flight.geolocator().known_points()[0].status, KnownPointStatus::kMatched);
+  EXPECT_LT(farthest_from(places, flight), 0.1);
+}
+
 /// The frame that matches a point states the covariances that follow.
 TEST(JointKnownPoints, MakeAllObjectsBetterKnownAtOnce) {
   const std::vector<Eigen::Vector2d> places = grid(0.0, 24.0, 8.0);
