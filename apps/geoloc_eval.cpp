@@ -24,6 +24,7 @@ struct Options {
   std::vector<int> scenarios{1, 2, 3};
   std::vector<std::uint64_t> seeds{0, 1, 2};
   int known_points = 0;
+  double hills_m = 0.0;
   std::string config_file;
   std::string sweep;
   bool is_rendered = false;
@@ -53,6 +54,9 @@ void add_options(CLI::App& program, Options& options) {
                   "Also run the joint method with so many targets of each run told to it, 5 cm off; the "
                   "others are scored")
       ->check(CLI::Range(0, 30))
+      ->capture_default_str();
+  program.add_option("--hills-m", options.hills_m, "Amplitude of the ground's waves in the table's runs, m")
+      ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
   program.add_option("--sweep", options.sweep, "Vary one circumstance as well: its name, or all [none]")
       ->type_name("NAME");
@@ -88,6 +92,7 @@ Experiment make_experiment(const Options& options) {
   if (options.known_points > 0) experiment.contenders.push_back({Method::kJoint, options.known_points});
   experiment.scenarios = options.scenarios;
   experiment.seeds = options.seeds;
+  experiment.recording.terrain.hills_m = options.hills_m;
   if (!options.config_file.empty()) {
     std::vector<std::string> problems;
     estimation_from_json(read_config_document(options.config_file), {"video", "detection"},

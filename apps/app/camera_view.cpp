@@ -11,7 +11,7 @@ namespace {
 
 /// 0..1 from the image's left and top edge; nullopt outside of it.
 std::optional<Eigen::Vector2d> image_point(const Geolocator& geolocator,
-                                           const Eigen::Vector2d& position_in_enu) {
+                                           const Eigen::Vector3d& position_in_enu) {
   const Projector& projector = geolocator.projector();
   const auto pixel = projector.reproject(position_in_enu, geolocator.view().enu_from_camera);
   if (!pixel || !projector.camera().contains(*pixel)) return std::nullopt;
@@ -19,16 +19,26 @@ std::optional<Eigen::Vector2d> image_point(const Geolocator& geolocator,
   return Eigen::Vector2d((pixel->x() + 0.5) / image.width_px, (pixel->y() + 0.5) / image.height_px);
 }
 
+/// The view is lifted, and objects with it.
+Eigen::Vector3d position_in_view(const Track& track, const Geolocator& geolocator) {
+  const Eigen::Vector2d& mean = track.position_in_enu.mean;
+  const double ground_m = geolocator.projector().config().ground_height_above_home_m;
+  const double height_m = track.height ? track.height->above_home_m + geolocator.view().lifted_m : ground_m;
+  return {mean.x(), mean.y(), height_m};
+}
+
 io::CameraTarget target_of(const Track& track, const Geolocator& geolocator) {
   const Eigen::Vector2d& mean = track.position_in_enu.mean;
-  const Eigen::Vector3d on_ground(mean.x(), mean.y(),
-                                  geolocator.projector().config().ground_height_above_home_m);
+  const Eigen::Vector3d in_view = position_in_view(track, geolocator);
   io::CameraTarget target;
   target.id = track.id;
   target.position = geolocator.local_frame()->to_geodetic(mean);
   target.sigma_horizontal_m = io::error_ellipse(track.position_in_enu.covariance).sigma_major_m;
-  target.distance_m = (on_ground - geolocator.view().enu_from_camera.translation).norm();
-  target.image_point = image_point(geolocator, mean);
+  const io::HeightReport height = io::height_of(track, geolocator);
+  target.height_msl_m = height.msl_m;
+  target.sigma_height_m = height.sigma_m;
+  target.distance_m = (in_view - geolocator.view().enu_from_camera.translation).norm();
+  target.image_point = image_point(geolocator, in_view);
   return target;
 }
 
@@ -43,9 +53,10 @@ io::CameraView camera_view(const Geolocator& geolocator, HostTime captured_at) {
   view.time = geolocator.view().vehicle.time;
   view.camera = frame.to_geodetic(enu_from_camera.translation.head<2>());
   if (const auto home_height_msl_m = geolocator.state().home_height_msl_m()) {
-    view.camera_height_msl_m = *home_height_msl_m + enu_from_camera.translation.z();
+    const double home_in_view_msl_m = *home_height_msl_m - geolocator.view().lifted_m;
+    view.camera_height_msl_m = home_in_view_msl_m + enu_from_camera.translation.z();
     view.ground_height_msl_m =
-        *home_height_msl_m + geolocator.projector().config().ground_height_above_home_m;
+        home_in_view_msl_m + geolocator.projector().config().ground_height_above_home_m;
   }
   view.ned_from_camera = enu_from_ned().conjugate() * enu_from_camera.rotation *
                          body_from_forward_camera().conjugate();  // its axes to forward, right, down

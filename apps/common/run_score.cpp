@@ -6,11 +6,11 @@
 namespace geoloc::apps {
 namespace {
 
-std::vector<Gaussian2> confirmed(const Session& session, const LeftOut& left_out) {
-  std::vector<Gaussian2> objects;
+std::vector<const Track*> confirmed(const Session& session, const LeftOut& left_out) {
+  std::vector<const Track*> objects;
   for (const Track& track : session.geolocator().tracks()) {
     const bool is_left_out = std::find(left_out.begin(), left_out.end(), track.id) != left_out.end();
-    if (track.status == TrackStatus::kConfirmed && !is_left_out) objects.push_back(track.position_in_enu);
+    if (track.status == TrackStatus::kConfirmed && !is_left_out) objects.push_back(&track);
   }
   return objects;
 }
@@ -31,15 +31,30 @@ Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth
   if (!session.geolocator().local_frame())
     return score_objects({}, std::vector<Eigen::Vector2d>(truth.size()));
   std::vector<Eigen::Vector2d> objects;
-  for (const Gaussian2& object : confirmed(session, left_out)) objects.push_back(object.mean);
+  for (const Track* object : confirmed(session, left_out)) objects.push_back(object->position_in_enu.mean);
   return score_objects(objects, targets_in_enu(truth, session.geolocator()));
 }
 
 double mean_nees_of_run(const Session& session, const std::vector<io::TrueTarget>& truth, const Score& score,
                         const LeftOut& left_out) {
   if (!session.geolocator().local_frame()) return 0.0;
-  return mean_nees(confirmed(session, left_out), targets_in_enu(truth, session.geolocator()),
-                   score.target_of_object);
+  std::vector<Gaussian2> objects;
+  for (const Track* object : confirmed(session, left_out)) objects.push_back(object->position_in_enu);
+  return mean_nees(objects, targets_in_enu(truth, session.geolocator()), score.target_of_object);
+}
+
+std::optional<HeightScore> score_heights_of_run(const Session& session,
+                                                const std::vector<io::TrueTarget>& truth, const Score& score,
+                                                const LeftOut& left_out) {
+  std::vector<double> errors_m;
+  const std::vector<const Track*> objects = confirmed(session, left_out);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto target = score.target_of_object[i];
+    if (!target || !objects[i]->height || !truth[*target].height_above_home_m) continue;
+    errors_m.push_back(objects[i]->height->above_home_m - *truth[*target].height_above_home_m);
+  }
+  if (errors_m.empty()) return std::nullopt;
+  return score_heights(errors_m);
 }
 
 }  // namespace geoloc::apps

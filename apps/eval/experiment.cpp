@@ -73,7 +73,8 @@ void run_task(const Experiment& experiment, const Task& task, std::vector<RunRes
   settings.run.seed = task.seed;
   const auto targets_in_enu = sim::make_scenario(task.scenario, task.seed);
   const auto frames = sim::generate_frames(*task.flight, settings, targets_in_enu);
-  const auto truth = sim::true_targets(targets_in_enu, task.flight->truth.frame());
+  const auto truth =
+      sim::true_targets(sim::standing_on(settings.terrain, targets_in_enu), task.flight->truth.frame());
 
   for (std::size_t m = 0; m < experiment.contenders.size(); ++m) {
     results[task.first_result + m] = run_method({*task.flight, settings.run, frames, truth},
@@ -99,6 +100,7 @@ RunResult run_method(const SimulatedRun& run, const Contender& contender, Estima
   result.contender = contender;
   const LeftOut told = objects_of_known_points(session, survey);
   result.score = score_run(session, survey.others, told);
+  result.heights = score_heights_of_run(session, survey.others, result.score, told);
   result.nees = mean_nees_of_run(session, survey.others, result.score, told);
   result.known_points_used = known_points_used(session);
   result.calibration = calibration_error(session, run.settings, run.flight);

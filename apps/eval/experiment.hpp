@@ -51,7 +51,8 @@ struct RunResult {
   std::uint64_t seed = 0;
   Contender contender;
   Score score;
-  double nees = 0.0;  ///< mean over the objects found; 2 is right
+  std::optional<HeightScore> heights;  ///< where the method estimates them
+  double nees = 0.0;                   ///< mean over the objects found; 2 is right
   int known_points_used = 0;
   std::optional<CalibrationError> calibration;
 };

@@ -92,12 +92,14 @@ std::vector<Summary> summarize(const std::vector<RunResult>& results) {
     summary.extra += run.score.extra;
     summary.merged_pairs += run.score.merged_pairs;
     summary.mean_nees += run.nees;
+    if (run.heights) summary.mean_relative_height_rmse_m += run.heights->relative_rmse_m;
     if (run.calibration) add_calibration(summary, *run.calibration);
   }
   for (Summary& summary : summaries) {
     summary.mean_rmse_m /= summary.runs;
     summary.mean_relative_rmse_m /= summary.runs;
     summary.mean_nees /= summary.runs;
+    summary.mean_relative_height_rmse_m /= summary.runs;
   }
   return summaries;
 }
@@ -106,15 +108,16 @@ std::string to_markdown(const std::vector<RunResult>& results) {
   const std::vector<Summary> summaries = summarize(results);
   std::string text =
       "| set | method | runs | RMSE m | relative RMSE m | found | extra | merged pairs | NEES (2 is right) | "
-      "worst latency error s | worst boresight error deg | in stated sigmas |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "worst latency error s | worst boresight error deg | in stated sigmas | relative height RMSE m |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   const auto out = std::back_inserter(text);
   for (const Summary& s : summaries) {
     fmt::format_to(
-        out, "| {} | {} | {} | {:.3f} | {:.3f} | {}/{} | {} | {} | {:.2f} | {:.3f} | {:.2f} | {:.1f} |\n",
+        out,
+        "| {} | {} | {} | {:.3f} | {:.3f} | {}/{} | {} | {} | {:.2f} | {:.3f} | {:.2f} | {:.1f} | {:.3f} |\n",
         s.set, name_of(s.contender), s.runs, s.mean_rmse_m, s.mean_relative_rmse_m, s.found, s.targets,
         s.extra, s.merged_pairs, s.mean_nees, s.worst_latency_error_s, s.worst_boresight_error_deg,
-        s.worst_sigmas);
+        s.worst_sigmas, s.mean_relative_height_rmse_m);
   }
   for (const Summary& s : summaries) {
     fmt::format_to(out, "\n{}, {}: RMSE m / targets found, means over the seeds\n\n", s.set,
@@ -142,6 +145,9 @@ nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
                     {"targets", run.score.targets},
                     {"extra", run.score.extra},
                     {"merged_pairs", run.score.merged_pairs},
+                    {"height_rmse_m", run.heights ? nlohmann::ordered_json(run.heights->rmse_m) : nullptr},
+                    {"relative_height_rmse_m",
+                     run.heights ? nlohmann::ordered_json(run.heights->relative_rmse_m) : nullptr},
                     {"nees", run.nees},
                     {"known_points_used", run.known_points_used},
                     {"calibration_error", to_json(run.calibration)}});
@@ -158,6 +164,7 @@ nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
                          {"extra", s.extra},
                          {"merged_pairs", s.merged_pairs},
                          {"mean_nees", s.mean_nees},
+                         {"mean_relative_height_rmse_m", s.mean_relative_height_rmse_m},
                          {"worst_latency_error_s", s.worst_latency_error_s},
                          {"worst_boresight_error_deg", s.worst_boresight_error_deg},
                          {"worst_error_in_sigmas", s.worst_sigmas}});

@@ -74,7 +74,7 @@ void record(const std::filesystem::path& folder, const sim::Flight& flight,
   std::filesystem::remove_all(folder);
   io::RecordingWriter writer(folder);
   writer.write_camera(sim::nominal_camera(scenario.settings.run));
-  writer.write_truth(sim::true_targets(scenario.targets_in_enu, flight.truth.frame()));
+  writer.write_truth(sim::true_targets(sim::standing_on({}, scenario.targets_in_enu), flight.truth.frame()));
   writer.write_extra("sim.json", sim::injected_json(flight, scenario.settings));
   for (const io::TlogRecord& record : flight.telemetry.records())
     writer.add_telemetry(record.received_at, record.frame, record.size);
@@ -113,7 +113,7 @@ std::vector<RenderedRun> run_rendered(
       const std::string name = settings.flight + "_scenario" + std::to_string(scenario.settings.run.scenario);
       record(settings.recordings / name, flight, scenario);
     }
-    const auto truth = sim::true_targets(scenario.targets_in_enu, flight.truth.frame());
+    const auto truth = sim::true_targets(sim::standing_on({}, scenario.targets_in_enu), flight.truth.frame());
     for (const Contender& contender : experiment.contenders) {
       if (contender.known_points > 0) continue;
       const auto run = [&](const std::vector<io::RecordedFrame>& frames) {

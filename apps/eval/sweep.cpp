@@ -73,6 +73,29 @@ Sweep height() {
   return sweep;
 }
 
+Sweep hills() {
+  Sweep sweep{
+      "hills", "Hills", "amplitude of the ground's waves, m", false, {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 5.0}};
+  sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
+    settings.terrain.hills_m = value;
+  };
+  return sweep;
+}
+
+/// The same flights over the same ground, taken off elsewhere.
+Sweep take_off() {
+  Sweep sweep{"take-off",
+              "Take-off elsewhere",
+              "ground above the place of take-off, m",
+              false,
+              {-20.0, -10.0, -5.0, 0.0, 5.0, 10.0, 20.0}};
+  sweep.flight_at = [](const sim::Flight& flight, double value) { return sim::raised(flight, value); };
+  sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
+    settings.terrain.level_above_home_m = value;
+  };
+  return sweep;
+}
+
 Sweep pairs() {
   Sweep sweep{"pairs", "Targets in pairs", "distance within a pair, m", true, {0.3, 0.5, 0.8, 1.2, 2.0, 3.0},
               1.2};
@@ -118,8 +141,8 @@ Sweep speed() {
 }  // namespace
 
 const std::vector<Sweep>& all_sweeps() {
-  static const std::vector<Sweep> sweeps{latency(), boresight(), telemetry_rate(), height(),
-                                         pairs(),   misses(),    clutter(),        speed()};
+  static const std::vector<Sweep> sweeps{latency(),  boresight(), telemetry_rate(), height(),  hills(),
+                                         take_off(), pairs(),     misses(),         clutter(), speed()};
   return sweeps;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 /// Targets that stand wholly in three frames at least: no method can be expected to find others.
 int targets_in_view(const sim::Flight& flight, const sim::RecordingSettings& settings,
-                    const std::vector<Eigen::Vector2d>& targets_in_enu) {
+                    const std::vector<Eigen::Vector3d>& targets_in_enu) {
   constexpr int kEnough = 3;
   const sim::TrueCamera camera = sim::make_true_camera(settings.run, sim::run_seed(settings.run, flight));
   const CameraModel model(camera.intrinsics);
@@ -50,13 +50,15 @@ SweepPoint run_step(const Experiment& experiment, const Sweep& sweep, double val
     const auto targets_in_enu =
         sweep.targets_at ? sweep.targets_at(value, seed) : sim::make_scenario(1, seed);
     const auto frames = sim::generate_frames(flight, settings, targets_in_enu);
-    const auto truth = sim::true_targets(targets_in_enu, flight.truth.frame());
+    const auto truth =
+        sim::true_targets(sim::standing_on(settings.terrain, targets_in_enu), flight.truth.frame());
     for (const Contender& contender : experiment.contenders) {
       if (contender.known_points > 0) continue;
       point.runs.push_back(
           run_method({flight, settings.run, frames, truth}, contender, experiment.estimation));
     }
-    if (sweep.leaves_targets_out) point.in_view += targets_in_view(flight, settings, targets_in_enu);
+    if (sweep.leaves_targets_out)
+      point.in_view += targets_in_view(flight, settings, sim::standing_on(settings.terrain, targets_in_enu));
   }
   return point;
 }

@@ -164,7 +164,7 @@ int run_live_mode(const RunOptions& options, const LiveOptions& live, std::uint6
     check(live);
     run = std::make_unique<LiveRun>(options, live, seed);
     if (!live.truth_file.empty()) {
-      const auto truth = true_targets(run->targets_in_enu, run->flight.truth.frame());
+      const auto truth = true_targets(standing_on({}, run->targets_in_enu), run->flight.truth.frame());
       io::write_file_atomically(live.truth_file, io::truth_to_geojson(truth));
     }
   } catch (const std::exception& error) {

@@ -7,6 +7,7 @@
 
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/flight/recording_generator.hpp"
+#include "geoloc/sim/live/flight_variants.hpp"
 
 namespace geoloc::sim {
 
@@ -23,6 +24,11 @@ CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
   add("--target-size-m", detector.target_size_m, "Diameter of a target, m")->capture_default_str();
   add("--min-visible-fraction", detector.min_visible_fraction, "Of a box that is found, in the image")
       ->capture_default_str();
+  add("--hills-m", options.terrain.hills_m, "Amplitude of the ground's waves, m")->capture_default_str();
+  add("--ground-above-home-m", options.terrain.level_above_home_m,
+      "Height of the ground above the place of take-off, m; the flight is as high above the ground as "
+      "without")
+      ->capture_default_str();
   return record;
 }
 
@@ -34,12 +40,14 @@ int run_record_mode(const RunOptions& run, const RecordOptions& options, std::ui
   RecordingSettings settings;
   std::optional<Flight> flight;
   try {
-    settings = {to_settings(run, seed), options.detector};
+    settings = {to_settings(run, seed), options.detector, options.terrain};
     throw_if_any(settings.problems());
     if (std::filesystem::exists(options.folder)) {
       throw std::invalid_argument("--record " + options.folder + ": exists already; name a new folder");
     }
     flight = load_flight(run);
+    if (options.terrain.level_above_home_m != 0.0)
+      flight = raised(*flight, options.terrain.level_above_home_m);
     run_span(settings.run, flight->truth);  // refuses times outside the flight
   } catch (const std::exception& error) {
     return fail(error, 2);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geoloc/sim/flight/simulated_detector.hpp"
+#include "geoloc/sim/flight/terrain.hpp"
 #include "sim/run_options.hpp"
 
 namespace geoloc::sim {
@@ -13,6 +14,7 @@ namespace geoloc::sim {
 struct RecordOptions {
   std::string folder;
   DetectorModel detector;
+  Terrain terrain;
 };
 
 /// Adds --record and the noise model's options; returns the one that chooses this mode.

@@ -30,28 +30,27 @@ Eigen::Index room_for(int max_nodes) {
 ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, int max_nodes)
     : information_(room_for(max_nodes)),
       right_hand_side_(room_for(max_nodes)),
-      sensitivities_(room_for(max_nodes), 2) {
+      sensitivities_(room_for(max_nodes), kPointSize) {
   prior_mean_ << prior.boresight_x_deg * kRadPerDeg, prior.boresight_y_deg * kRadPerDeg,
-      prior.boresight_z_deg * kRadPerDeg, prior.latency_s, prior.height_m, 0.0, 0.0;
+      prior.boresight_z_deg * kRadPerDeg, prior.latency_s, 0.0, 0.0, 0.0;
   prior_sigma_ << prior.sigma_boresight_x_deg * kRadPerDeg, prior.sigma_boresight_y_deg * kRadPerDeg,
-      prior.sigma_boresight_z_deg * kRadPerDeg, prior.sigma_latency_s, prior.sigma_height_m, 0.0, 0.0;
+      prior.sigma_boresight_z_deg * kRadPerDeg, prior.sigma_latency_s, 0.0, 0.0, 0.0;
 }
 
-CalibrationVector ArrowheadSolver::prior_sigma(double sigma_offset_m) const {
-  CalibrationVector sigma = prior_sigma_;
-  sigma.segment<2>(CalibrationIndex::kOffset).setConstant(sigma_offset_m);
-  return sigma.cwiseMax(kLeastSigma);
+Calibration ArrowheadSolver::prior(const FlightPrior& flight) const {
+  CalibrationVector mean = prior_mean_, sigma = prior_sigma_;
+  mean[CalibrationIndex::kHeight] = flight.height_m;
+  sigma[CalibrationIndex::kHeight] = flight.sigma_height_m;
+  sigma.segment<2>(CalibrationIndex::kOffset).setConstant(flight.sigma_offset_m);
+  return {mean, sigma.cwiseMax(kLeastSigma).array().square().matrix().asDiagonal()};
 }
 
-Calibration ArrowheadSolver::prior(double sigma_offset_m) const {
-  return {prior_mean_, prior_sigma(sigma_offset_m).array().square().matrix().asDiagonal()};
-}
-
-void ArrowheadSolver::add_prior(double sigma_offset_m, const DriftTimeline& drift, const HeadLayout& layout) {
-  const CalibrationVector information = prior_sigma(sigma_offset_m).array().square().inverse();
+void ArrowheadSolver::add_prior(const Calibration& prior, const DriftTimeline& drift,
+                                const HeadLayout& layout) {
+  const CalibrationVector information = prior.covariance.diagonal().cwiseInverse();
   const Eigen::Index last = layout.column_of_calibration();
   information_.block<kCalibration, kCalibration>(last, last).diagonal() += information;
-  right_hand_side_.segment<kCalibration>(last) += information.cwiseProduct(prior_mean_);
+  right_hand_side_.segment<kCalibration>(last) += information.cwiseProduct(prior.mean);
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number) {
     const DriftNode& node = drift.node(number);
     const NodeVector information_of_node = drift.information(number);
@@ -69,15 +68,15 @@ void ArrowheadSolver::add_prior(double sigma_offset_m, const DriftTimeline& drif
 
 /// Adds C - B' A^-1 B to the lower triangle and g + B' A^-1 b to the right-hand side.
 void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& layout) {
-  const Eigen::Matrix2d A_inverse = landmark.A().inverse();
-  const Eigen::Vector2d mean = A_inverse * landmark.b();
+  const PointMatrix A_inverse = landmark.A().inverse();
+  const Point mean = A_inverse * landmark.b();
   const Eigen::Index last = layout.column_of_calibration();
   const auto& B = landmark.B();
   information_.block<kCalibration, kCalibration>(last, last) +=
       landmark.C() - B.transpose() * (A_inverse * B);
   right_hand_side_.segment<kCalibration>(last) += landmark.g() + B.transpose() * mean;
 
-  std::array<Eigen::Matrix<double, 2, kNodeSize>, Landmark::kMaxNodes> gains;  // A^-1 B, of the nodes
+  std::array<Landmark::NodeRows, Landmark::kMaxNodes> gains;  // A^-1 B, of the nodes
   std::size_t count = 0;
   for (const Landmark::NodeTerms& own : landmark) {
     const Eigen::Index here = layout.column_of(own.number);
@@ -95,12 +94,12 @@ void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& l
 }
 
 std::optional<ArrowheadSolver::Solution> ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks,
-                                                                double sigma_offset_m,
+                                                                const FlightPrior& prior,
                                                                 const DriftTimeline& drift) {
   const HeadLayout layout{drift.begin(), drift.end()};
   information_.reset(layout.size());
   right_hand_side_.head(layout.size()).setZero();
-  add_prior(sigma_offset_m, drift, layout);
+  add_prior(this->prior(prior), drift, layout);
   for (const Landmark* landmark : landmarks) add_landmark(*landmark, layout);
   if (!information_.factorize()) return std::nullopt;
   information_.solve(right_hand_side_.head(layout.size()));
@@ -130,7 +129,7 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
   if (drift.size() < kEnoughNodes) return std::nullopt;
   double sum = 0.0;
   int count = 0;
-  auto steps = solver_->sensitivities_.topRows(layout_.size());
+  auto steps = solver_->sensitivities_.topRows(layout_.size());  // the third column stays zero
   for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number) {
     const DriftNode& node = drift.node(number);
     const Eigen::Index here = layout_.column_of(number), before = here - kNodeSize;
@@ -138,10 +137,10 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
     const Eigen::Array2d step =
         node.mean.head<2>().array() - transition * drift.node(number - 1).mean.head<2>().array();
     steps.setZero();
-    steps.middleRows<2>(here).setIdentity();
-    steps.middleRows<2>(before).diagonal() = -transition;
+    steps.block<2, 2>(here, 0).setIdentity();
+    steps.block<2, 2>(before, 0).diagonal() = -transition;
     solver_->information_.solve_lower(steps, before);
-    const Eigen::Array2d variance = steps.colwise().squaredNorm().transpose();
+    const Eigen::Array2d variance = steps.leftCols<2>().colwise().squaredNorm().transpose();
     sum += ((step.square() + variance) * node.information.head<2>().array()).sum();
     count += 2;
   }
@@ -149,7 +148,7 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
 }
 
 void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign) {
-  const Eigen::Matrix2d A_inverse = sign * landmark.A().inverse();
+  const PointMatrix A_inverse = sign * landmark.A().inverse();
   sensitivities_.middleRows<kCalibration>(layout.column_of_calibration()) +=
       landmark.B().transpose() * A_inverse;
   for (const Landmark::NodeTerms& terms : landmark) {
@@ -158,21 +157,21 @@ void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout
 }
 
 /// G S^-1 G' of the sensitivities gathered, which are zero before `first`.
-Eigen::Matrix2d ArrowheadSolver::head_covariance(Eigen::Index first) {
+PointMatrix ArrowheadSolver::head_covariance(Eigen::Index first) {
   auto sensitivities = sensitivities_.topRows(information_.size());
   information_.solve_lower(sensitivities, first);
   const auto used = sensitivities.bottomRows(information_.size() - first);
   return used.transpose().lazyProduct(used);
 }
 
-Eigen::Matrix2d ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
+PointMatrix ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
   solver_->sensitivities_.topRows(layout_.size()).setZero();
   solver_->add_sensitivity(landmark, layout_, 1.0);
+  solver_->sensitivities_(layout_.column_of_calibration() + CalibrationIndex::kHeight, 2) -= 1.0;
   return landmark.A().inverse() + solver_->head_covariance(first_column(landmark, layout_));
 }
 
-Eigen::Matrix2d ArrowheadSolver::Solution::covariance_of_difference(const Landmark& a,
-                                                                    const Landmark& b) const {
+PointMatrix ArrowheadSolver::Solution::covariance_of_difference(const Landmark& a, const Landmark& b) const {
   solver_->sensitivities_.topRows(layout_.size()).setZero();
   solver_->add_sensitivity(a, layout_, 1.0);
   solver_->add_sensitivity(b, layout_, -1.0);

@@ -25,6 +25,13 @@ struct HeadLayout {
   Eigen::Index size() const { return column_of_calibration() + CalibrationIndex::kSize; }
 };
 
+/// The part of the calibration's prior that depends on the flight.
+struct FlightPrior {
+  double height_m;
+  double sigma_height_m;
+  double sigma_offset_m;  ///< 1-sigma per axis of the vehicle's constant position error
+};
+
 /// Least squares over everything seen so far: calibration and drift (the head) and all objects (the arrow's
 /// shaft), which are eliminated one by one because no look joins two of them. Exact up to linearisation
 /// (docs/method.md).
@@ -40,11 +47,12 @@ class ArrowheadSolver {
     NodeVector node(std::uint32_t number) const;
     NodeMatrix newest_node_covariance() const;
 
-    /// Covariance of an object's absolute position [m^2]: its own noise and that of the head.
-    Eigen::Matrix2d covariance(const Landmark& landmark) const;
+    /// Covariance of an object's absolute position [m^2]: its own noise and that of the head. Its height is
+    /// that above the reported home, so that the calibration's height is part of it.
+    PointMatrix covariance(const Landmark& landmark) const;
 
     /// Covariance of the difference of two objects' positions [m^2]: what they share cancels.
-    Eigen::Matrix2d covariance_of_difference(const Landmark& a, const Landmark& b) const;
+    PointMatrix covariance_of_difference(const Landmark& a, const Landmark& b) const;
 
     /// How strongly the position was seen to wander, in units of what the nodes' prior says: one step of
     /// expectation maximisation. `drift` holds this solution's means. nullopt while there are too few nodes
@@ -64,26 +72,24 @@ class ArrowheadSolver {
   /// Room for so many nodes.
   ArrowheadSolver(const CalibrationPrior& prior, int max_nodes);
 
-  /// Solves for the head with the objects' sums. sigma_offset_m: 1-sigma per axis of the vehicle's constant
-  /// position error. nullopt where rounding has left no solution.
+  /// Solves for the head with the objects' sums. nullopt where rounding has left no solution.
   [[nodiscard]] std::optional<Solution> solve(const std::vector<const Landmark*>& landmarks,
-                                              double sigma_offset_m, const DriftTimeline& drift);
+                                              const FlightPrior& prior, const DriftTimeline& drift);
 
   /// The calibration before anything was seen.
-  Calibration prior(double sigma_offset_m) const;
+  Calibration prior(const FlightPrior& prior) const;
 
  private:
-  CalibrationVector prior_sigma(double sigma_offset_m) const;
-  void add_prior(double sigma_offset_m, const DriftTimeline& drift, const HeadLayout& layout);
+  void add_prior(const Calibration& prior, const DriftTimeline& drift, const HeadLayout& layout);
   void add_landmark(const Landmark& landmark, const HeadLayout& layout);
   void add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign);
-  Eigen::Matrix2d head_covariance(Eigen::Index first);
+  PointMatrix head_covariance(Eigen::Index first);
 
   CalibrationVector prior_mean_;
-  CalibrationVector prior_sigma_;               // of all but the offset
-  EnvelopeCholesky information_;                // S, and its factor after solve()
-  Eigen::VectorXd right_hand_side_;             // h, and the head after solve()
-  EnvelopeCholesky::TwoColumns sensitivities_;  // scratch: dx/d(head), transposed
+  CalibrationVector prior_sigma_;            // of all but the height and the offset
+  EnvelopeCholesky information_;             // S, and its factor after solve()
+  Eigen::VectorXd right_hand_side_;          // h, and the head after solve()
+  EnvelopeCholesky::Columns sensitivities_;  // scratch: dx/d(head), transposed
 };
 
 }  // namespace geoloc

@@ -8,14 +8,12 @@
 
 namespace geoloc {
 
-void Calibration::apply_to(Rigid3d& enu_from_camera) const {
-  const Eigen::Vector3d turn = boresight_rad();
-  const double angle = turn.norm();
-  if (angle > 0.0) {
-    const Eigen::Quaterniond rotation(Eigen::AngleAxisd(angle, turn / angle));
-    enu_from_camera.rotation = (enu_from_camera.rotation * rotation).normalized();
-  }
-  enu_from_camera.translation.z() += height_m();
+void Calibration::turn(Rigid3d& enu_from_camera) const {
+  const Eigen::Vector3d boresight = boresight_rad();
+  const double angle = boresight.norm();
+  if (!(angle > 0.0)) return;
+  const Eigen::Quaterniond rotation(Eigen::AngleAxisd(angle, boresight / angle));
+  enu_from_camera.rotation = (enu_from_camera.rotation * rotation).normalized();
 }
 
 std::vector<std::string> CalibrationPrior::problems() const {

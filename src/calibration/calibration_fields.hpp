@@ -27,7 +27,7 @@ void visit_fields(Visitor& v, CalibrationPrior& prior) {
   v.field("sigma_latency_s", prior.sigma_latency_s, kSigma, "s",
           "1-sigma of latency_s before the flight: exposure, encoder, link and clock together; 0 freezes it");
   v.field("sigma_height_m", prior.sigma_height_m, kSigma, "m",
-          "1-sigma of height_m before the flight: the barometer at take-off, and the ground against it; 0 "
+          "Scale of height_m before the flight; the tails are heavy, since the take-off may lie elsewhere; 0 "
           "freezes it");
 }
 

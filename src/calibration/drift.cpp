@@ -33,16 +33,16 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
   DriftNode next;
   next.time = time;
   const double sigma_yaw = config_.sigma_yaw_deg * kRadPerDeg;
-  const NodeVector variance(sigma_position_m * sigma_position_m, sigma_position_m * sigma_position_m,
-                            sigma_yaw * sigma_yaw);
+  const NodeVector sigma(sigma_position_m, sigma_position_m, config_.sigma_up_m, sigma_yaw);
   if (continues) {
     const double pause_s = seconds(time - node(end_ - 1).time);
     const double position = std::exp(-pause_s / config_.position_time_constant_s);
+    const double up = std::exp(-pause_s / config_.up_time_constant_s);
     const double yaw = std::exp(-pause_s / config_.yaw_time_constant_s);
-    next.transition = NodeVector(position, position, yaw);
+    next.transition = NodeVector(position, position, up, yaw);
     next.mean = next.transition.cwiseProduct(node(end_ - 1).mean);
   }
-  next.information = (variance.array() * (1.0 - next.transition.array().square())).inverse();
+  next.information = (sigma.array().square() * (1.0 - next.transition.array().square())).inverse();
   nodes_[slot(end_)] = next;
   ++end_;
 }

@@ -11,8 +11,8 @@
 
 namespace geoloc {
 
-/// A node's state: east, north [m], yaw [rad, clockwise]; corrections to what the vehicle reports.
-inline constexpr int kNodeSize = 3;
+/// A node's state: east, north, up [m], yaw [rad, clockwise]; corrections to what the vehicle reports.
+inline constexpr int kNodeSize = 4;
 using NodeVector = Eigen::Matrix<double, kNodeSize, 1>;
 using NodeMatrix = Eigen::Matrix<double, kNodeSize, kNodeSize>;
 
@@ -57,7 +57,7 @@ class DriftTimeline {
   /// Information of a node's prior, with the wandering of the position scaled as set.
   NodeVector information(std::uint32_t number) const {
     const double position = 1.0 / (position_scale_ * position_scale_);
-    return node(number).information.cwiseProduct(NodeVector(position, position, 1.0));
+    return node(number).information.cwiseProduct(NodeVector(position, position, 1.0, 1.0));
   }
 
   /// How strongly the position wanders against what the receiver's accuracy let expect.

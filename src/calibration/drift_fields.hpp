@@ -12,6 +12,9 @@ void visit_fields(Visitor& v, DriftConfig& drift) {
           "Time between the nodes of the drift; it is interpolated linearly between them");
   v.field("position_time_constant_s", drift.position_time_constant_s, Range::positive(), "s",
           "Correlation time of the position's drift");
+  v.field("up_time_constant_s", drift.up_time_constant_s, Range::positive(), "s",
+          "Correlation time of the height's drift");
+  v.field("sigma_up_m", drift.sigma_up_m, Range::above(0, 100), "m", "1-sigma of the height's drift");
   v.field("yaw_time_constant_s", drift.yaw_time_constant_s, Range::positive(), "s",
           "Correlation time of the yaw's drift");
   v.field("sigma_yaw_deg", drift.sigma_yaw_deg, Range::above(0, 30), "deg", "1-sigma of the yaw's drift");

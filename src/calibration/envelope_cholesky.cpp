@@ -34,10 +34,10 @@ bool EnvelopeCholesky::factorize() {
   return true;
 }
 
-void EnvelopeCholesky::solve_lower(Eigen::Ref<TwoColumns> X, Eigen::Index first) const {
+void EnvelopeCholesky::solve_lower(Eigen::Ref<Columns> X, Eigen::Index first) const {
   for (Eigen::Index i = first; i < size_; ++i) {
     // Two sums that do not wait for each other.
-    Eigen::RowVector2d even = X.row(i), odd = Eigen::RowVector2d::Zero();
+    Eigen::RowVector3d even = X.row(i), odd = Eigen::RowVector3d::Zero();
     Eigen::Index j = std::max(first, first_[i]);
     for (; j + 1 < i; j += 2) {
       even -= rows_(i, j) * X.row(j);

@@ -12,7 +12,7 @@ namespace geoloc {
 /// only.
 class EnvelopeCholesky {
  public:
-  using TwoColumns = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   explicit EnvelopeCholesky(Eigen::Index max_size);
 
@@ -34,7 +34,7 @@ class EnvelopeCholesky {
   void solve(Eigen::Ref<Eigen::VectorXd> x) const;
 
   /// X = L^-1 X after factorize(), for an X whose rows before `first` are zero.
-  void solve_lower(Eigen::Ref<TwoColumns> X, Eigen::Index first) const;
+  void solve_lower(Eigen::Ref<Columns> X, Eigen::Index first) const;
 
   /// The last N rows and columns of S^-1 after factorize().
   template <int N>

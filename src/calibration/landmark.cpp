@@ -26,24 +26,26 @@ Landmark::NodeTerms& Landmark::terms_of(std::uint32_t node, const DriftTimeline&
 
 void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& drift) {
   const Eigen::Matrix2d& W = observation.information;
-  const CalibrationRow& Jc = observation.calibration_jacobian;
+  const Eigen::Matrix<double, 2, kPointSize> H = observation.point_jacobian();
+  const Eigen::Matrix<double, 2, CalibrationIndex::kSize>& Jc = observation.calibration_jacobian;
   const Eigen::Vector2d Wy = W * observation.value;
-  const CalibrationRow WJc = W * Jc;
-  A_ += W;
-  b_ += Wy;
-  B_ += WJc;
+  const Eigen::Matrix<double, 2, CalibrationIndex::kSize> WJc = W * Jc;
+  A_ += H.transpose() * W * H;
+  b_ += H.transpose() * Wy;
+  B_ += H.transpose() * WJc;
   C_ += Jc.transpose() * WJc;
   g_ -= Jc.transpose() * Wy;
 
   const double second = observation.span.weight_of_second, first = 1.0 - second;
   const Eigen::Matrix<double, 2, kNodeSize>& Jd = observation.node_jacobian;
   const Eigen::Matrix<double, 2, kNodeSize> WJd = W * Jd;
+  const NodeRows HWJd = H.transpose() * WJd;
   const Eigen::Matrix<double, CalibrationIndex::kSize, kNodeSize> JcWJd = Jc.transpose() * WJd;
   const NodeMatrix JdWJd = Jd.transpose() * WJd;
   const NodeVector JdWy = Jd.transpose() * Wy;
   const auto add_to = [&](std::uint32_t node, double weight) -> NodeTerms& {
     NodeTerms& terms = terms_of(node, drift);
-    terms.B += weight * WJd;
+    terms.B += weight * HWJd;
     terms.C_calibration += weight * JcWJd;
     terms.C_own += weight * weight * JdWJd;
     terms.g -= weight * JdWy;
@@ -54,9 +56,9 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   add_to(observation.span.first, first).C_next += first * second * JdWJd;
 }
 
-void Landmark::add_prior(const Eigen::Vector2d& position_in_enu, const Eigen::Matrix2d& information) {
-  A_ += information;
-  b_ += information * position_in_enu;
+void Landmark::add_prior(const PointInformation& prior) {
+  A_ += prior.matrix;
+  b_ += prior.vector;
 }
 
 void Landmark::merge(const Landmark& other, const DriftTimeline& drift) {
@@ -88,8 +90,8 @@ void Landmark::drop_oldest(const NodeVector& value) {
   --node_count_;
 }
 
-Eigen::Vector2d Landmark::position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
-  Eigen::Vector2d sum = b_ + B_ * calibration;
+Point Landmark::position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
+  Point sum = b_ + B_ * calibration;
   for (const NodeTerms& terms : *this) sum += terms.B * drift.node(terms.number).mean;
   return A_.inverse() * sum;
 }

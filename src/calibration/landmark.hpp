@@ -10,30 +10,62 @@
 
 namespace geoloc {
 
-/// One look at an object, linearised: x = value + calibration_jacobian c + node_jacobian d(t) + noise, where
-/// c is the calibration, d(t) the drift at the frame's time (a mean of the two nodes around it), x the
-/// object's true position.
+/// East, north, up [m].
+inline constexpr int kPointSize = 3;
+using Point = Eigen::Matrix<double, kPointSize, 1>;
+using PointMatrix = Eigen::Matrix<double, kPointSize, kPointSize>;
+
+/// What is known of a point by itself, in information form: matrix = covariance^-1 [1/m^2], vector = matrix *
+/// mean [1/m]. Adds up where it is independent.
+struct PointInformation {
+  PointMatrix matrix = PointMatrix::Zero();
+  Point vector = Point::Zero();
+
+  PointInformation& operator+=(const PointInformation& other) {
+    matrix += other.matrix;
+    vector += other.vector;
+    return *this;
+  }
+  PointInformation operator-() const { return {-matrix, -vector}; }
+};
+
+/// One look at an object, linearised: H x = value + calibration_jacobian c + node_jacobian d(t) + noise,
+/// where x is the object's true position, c the calibration, d(t) the drift at the frame's time (a mean of
+/// the two nodes around it). H = [1 0 -s_e; 0 1 -s_n]: along its ray, a look moves by s = (s_e, s_n) per
+/// metre up.
 struct LandmarkObservation {
   Eigen::Vector2d value;
+  Eigen::Vector2d slope;  ///< s: east, north per up
   Eigen::Matrix<double, 2, CalibrationIndex::kSize> calibration_jacobian;
   Eigen::Matrix<double, 2, kNodeSize> node_jacobian;
   NodeSpan span;
   Eigen::Matrix2d information;  ///< inverse covariance of the noise
+
+  /// H.
+  Eigen::Matrix<double, 2, kPointSize> point_jacobian() const { return point_jacobian_of(slope); }
+
+  static Eigen::Matrix<double, 2, kPointSize> point_jacobian_of(const Eigen::Vector2d& slope) {
+    Eigen::Matrix<double, 2, kPointSize> jacobian;
+    jacobian << Eigen::Matrix2d::Identity(), -slope;
+    return jacobian;
+  }
 };
 
-/// All that an object's looks say, as sums that add up exactly (docs/method.md): with W the information, J
-/// the Jacobian and y the value of a look,  A = sum W, b = sum W y, B = sum W J, C = sum J' W J, g = -sum J'
-/// W y. J has columns for the calibration and for the nodes that were touched; nothing else is stored.
+/// All that an object's looks say, as sums that add up exactly (docs/method.md): with W the information, H
+/// and J the Jacobians by object and head, y the value of a look,  A = sum H' W H, b = sum H' W y, B = sum H'
+/// W J, C = sum J' W J, g = -sum J' W y. J has columns for the calibration and for the nodes that were
+/// touched; nothing else is stored.
 class Landmark {
  public:
-  using CalibrationRow = Eigen::Matrix<double, 2, CalibrationIndex::kSize>;
+  using CalibrationRows = Eigen::Matrix<double, kPointSize, CalibrationIndex::kSize>;
+  using NodeRows = Eigen::Matrix<double, kPointSize, kNodeSize>;
   /// More nodes than an object is usually seen in; beyond, its oldest is frozen.
   static constexpr std::size_t kMaxNodes = 16;
 
   /// What ties the object to one drift node.
   struct NodeTerms {
     std::uint32_t number = 0;
-    Eigen::Matrix<double, 2, kNodeSize> B = Eigen::Matrix<double, 2, kNodeSize>::Zero();
+    NodeRows B = NodeRows::Zero();
     Eigen::Matrix<double, CalibrationIndex::kSize, kNodeSize> C_calibration =
         Eigen::Matrix<double, CalibrationIndex::kSize, kNodeSize>::Zero();
     NodeMatrix C_own = NodeMatrix::Zero();
@@ -43,8 +75,8 @@ class Landmark {
 
   void add(const LandmarkObservation& observation, const DriftTimeline& drift);
 
-  /// What is known of the object from elsewhere: a surveyed position.
-  void add_prior(const Eigen::Vector2d& position_in_enu, const Eigen::Matrix2d& information);
+  /// What is known of the object from elsewhere: a surveyed position, the height of the ground.
+  void add_prior(const PointInformation& prior);
 
   /// The looks of both are looks at one object.
   void merge(const Landmark& other, const DriftTimeline& drift);
@@ -53,11 +85,11 @@ class Landmark {
   void freeze(std::uint32_t node, const DriftTimeline& drift);
 
   /// x = A^-1 (b + B c + sum of B d over the nodes).
-  Eigen::Vector2d position(const CalibrationVector& calibration, const DriftTimeline& drift) const;
+  Point position(const CalibrationVector& calibration, const DriftTimeline& drift) const;
 
-  const Eigen::Matrix2d& A() const { return A_; }
-  const Eigen::Vector2d& b() const { return b_; }
-  const CalibrationRow& B() const { return B_; }
+  const PointMatrix& A() const { return A_; }
+  const Point& b() const { return b_; }
+  const CalibrationRows& B() const { return B_; }
   const CalibrationMatrix& C() const { return C_; }
   const CalibrationVector& g() const { return g_; }
   const NodeTerms* begin() const { return nodes_.data(); }
@@ -67,9 +99,9 @@ class Landmark {
   NodeTerms& terms_of(std::uint32_t node, const DriftTimeline& drift);
   void drop_oldest(const NodeVector& value);
 
-  Eigen::Matrix2d A_ = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d b_ = Eigen::Vector2d::Zero();
-  CalibrationRow B_ = CalibrationRow::Zero();
+  PointMatrix A_ = PointMatrix::Zero();
+  Point b_ = Point::Zero();
+  CalibrationRows B_ = CalibrationRows::Zero();
   CalibrationMatrix C_ = CalibrationMatrix::Zero();
   CalibrationVector g_ = CalibrationVector::Zero();
   std::array<NodeTerms, kMaxNodes> nodes_{};  // ordered by number

@@ -36,11 +36,13 @@ FixJacobians jacobians_of(const GroundFix& fix, const FrameView& view, double he
       -velocity.head<2>() - ground_from_height * velocity.z() - ground_from_turn * turn_rate_in_enu;
   jacobians.calibration.col(Index::kHeight) = ground_from_height;
   jacobians.calibration.middleCols<2>(Index::kOffset).setIdentity();
+  jacobians.height = ground_from_height;
 
   // Clockwise yaw turns the ray about the vertical: (e, n) -> (n, -e).
   const Eigen::Vector2d from_nadir = fix.range_m * v.head<2>();
   jacobians.node.leftCols<2>().setIdentity();
-  jacobians.node.col(2) = Eigen::Vector2d(from_nadir.y(), -from_nadir.x());
+  jacobians.node.col(2) = ground_from_height;
+  jacobians.node.col(3) = Eigen::Vector2d(from_nadir.y(), -from_nadir.x());
   return jacobians;
 }
 

@@ -9,7 +9,8 @@ namespace geoloc {
 /// How a fix moves on the ground when calibration and drift change.
 struct FixJacobians {
   Eigen::Matrix<double, 2, CalibrationIndex::kSize> calibration;  ///< see CalibrationIndex
-  Eigen::Matrix<double, 2, kNodeSize> node;                       ///< east, north, yaw
+  Eigen::Matrix<double, 2, kNodeSize> node;                       ///< east, north, up, yaw
+  Eigen::Vector2d height;  ///< by the height of the camera, or the depth of the ground
 };
 
 /// Analytic, at the fix and the view it was located with.

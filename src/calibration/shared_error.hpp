@@ -11,16 +11,17 @@ namespace geoloc {
 struct SharedError {
   static constexpr int kCalibrationSize = 5;
   static constexpr int kCalibration = 0;  ///< boresight, latency, height
-  static constexpr int kDrift = 5;        ///< east, north, yaw
-  static constexpr int kFrame = 8;        ///< east, north
-  static constexpr int kTime = 10;        ///< of the frame's stamp
-  static constexpr int kSize = 11;
+  static constexpr int kDrift = 5;        ///< east, north, up, yaw
+  static constexpr int kFrame = 9;        ///< east, north
+  static constexpr int kTime = 11;        ///< of the frame's stamp
+  static constexpr int kSize = 12;
 
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;
   using Row = Eigen::Matrix<double, 2, kSize>;
   using CalibrationMatrix = Eigen::Matrix<double, kCalibrationSize, kCalibrationSize>;
-  using CalibrationRow = Eigen::Matrix<double, 2, kCalibrationSize>;
+  /// The same for a point: east, north, up.
+  using PointRow = Eigen::Matrix<double, 3, kSize>;
 };
 
 }  // namespace geoloc

@@ -8,6 +8,10 @@
 namespace geoloc {
 namespace {
 
+/// 1-sigma of the height that association allows for, of the height itself.
+constexpr double kMostHeightShare = 0.05;
+/// The camera is taken to be so high above the ground at least.
+constexpr double kLeastHeightAboveGround_m = 0.5;
 constexpr double kTiny = 1e-18;  // a variance for components that are exactly known
 
 template <typename Matrix>
@@ -32,13 +36,32 @@ double PositionAccuracy::offset_sigma_m(double wandering_scale) const {
   return std::max(least_offset_sigma_m, wandering_scale * sigma_m);
 }
 
-SharedErrorEstimate::SharedErrorEstimate(const PositionAccuracy& reported, const DriftConfig& drift_config,
-                                         const ArrowheadSolver& solver)
+SharedErrorEstimate::SharedErrorEstimate(const PositionAccuracy& reported, const HeightPrior& expected_height,
+                                         const DriftConfig& drift_config, const ArrowheadSolver& solver)
     : accuracy(reported),
       drift(drift_config),
-      calibration(solver.prior(offset_sigma_m())),
+      height_prior(expected_height),
+      calibration(solver.prior(
+          {expected_height.mean_m, expected_height.sigma_at(expected_height.mean_m), offset_sigma_m()})),
       calibration_root(root_of(calibration)),
       drift_root(root_of(NodeMatrix(NodeMatrix::Zero()))) {}
+
+/// As estimated, but so that the camera stays above the ground while its height is not known: rays must meet
+/// the ground somewhere, and where they do is linear in the height (LookMaker takes the difference).
+double SharedErrorEstimate::lift_m(double reported_height_above_ground_m) const {
+  const double height_m = calibration.height_m();
+  const double prior_m = std::max(height_prior.sigma_at(height_m), 1e-9);
+  const double unknown = calibration.sigma(CalibrationIndex::kHeight) / prior_m;
+  const double least_m = std::max(kUsualHeight_m * unknown * unknown, kLeastHeightAboveGround_m);
+  return std::max(height_m, least_m - reported_height_above_ground_m);
+}
+
+void SharedErrorEstimate::bound_height(double height_above_ground_m) {
+  const double sigma_m = calibration.sigma(CalibrationIndex::kHeight);
+  const double most_m = kMostHeightShare * std::abs(height_above_ground_m);
+  calibration_root = root_of(calibration);
+  if (sigma_m > most_m) calibration_root.row(CalibrationIndex::kHeight) *= most_m / sigma_m;
+}
 
 void SharedErrorEstimate::take(const ArrowheadSolver::Solution& solution) {
   calibration = solution.calibration();
@@ -46,15 +69,6 @@ void SharedErrorEstimate::take(const ArrowheadSolver::Solution& solution) {
     drift.node(number).mean = solution.node(number);
   calibration_root = root_of(calibration);
   drift_root = root_of(solution.newest_node_covariance());
-}
-
-SharedError::Row SharedErrorEstimate::whitened(const SharedError::CalibrationRow& by_calibration,
-                                               const Eigen::Matrix<double, 2, kNodeSize>& by_drift) const {
-  SharedError::Row row = SharedError::Row::Zero();
-  row.middleCols<SharedError::kCalibrationSize>(SharedError::kCalibration) =
-      by_calibration * calibration_root;
-  row.middleCols<kNodeSize>(SharedError::kDrift) = by_drift * drift_root;
-  return row;
 }
 
 }  // namespace geoloc

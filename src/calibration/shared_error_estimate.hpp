@@ -5,6 +5,7 @@
 
 #include "calibration/arrowhead.hpp"
 #include "calibration/drift.hpp"
+#include "calibration/height_prior.hpp"
 #include "calibration/shared_error.hpp"
 #include "geoloc/calibration/calibration.hpp"
 
@@ -30,23 +31,52 @@ struct PositionAccuracy {
 struct SharedErrorEstimate {
   PositionAccuracy accuracy;
   DriftTimeline drift;
+  HeightPrior height_prior;
   Calibration calibration;
   /// Roots of the covariances, C = R R', of calibration and newest node: they whiten Jacobians.
   SharedError::CalibrationMatrix calibration_root;
   NodeMatrix drift_root;
 
   /// Before anything was seen.
-  SharedErrorEstimate(const PositionAccuracy& reported, const DriftConfig& drift_config,
-                      const ArrowheadSolver& solver);
+  SharedErrorEstimate(const PositionAccuracy& reported, const HeightPrior& height_prior,
+                      const DriftConfig& drift_config, const ArrowheadSolver& solver);
 
   double offset_sigma_m() const { return accuracy.offset_sigma_m(drift.position_scale()); }
+
+  /// For the next solution.
+  FlightPrior prior() const {
+    return {height_prior.mean_m, height_prior.sigma_at(calibration.height_m()), offset_sigma_m()};
+  }
+
+  /// By how much a camera is to be lifted that reports to be so high above the level ground [m].
+  double lift_m(double reported_height_above_ground_m) const;
+
+  /// Of the height, no more is taken to be unknown for telling looks apart than a share of it: the camera is
+  /// above the ground. (Were it not, all looks could be looks at one object.) The next solution undoes it.
+  void bound_height(double height_above_ground_m);
 
   /// Everything but the wandering's scale.
   void take(const ArrowheadSolver::Solution& solution);
 
+  /// Heights above the level ground to heights above home, which the calibration's height tells apart.
+  SharedError::PointRow above_home(SharedError::PointRow sensitivity) const {
+    sensitivity.row(2).segment<SharedError::kCalibrationSize>(SharedError::kCalibration) -=
+        calibration_root.row(CalibrationIndex::kHeight);
+    return sensitivity;
+  }
+
   /// With C = R R', J C J' is the square of J R: cheap for every pair of look and track.
-  SharedError::Row whitened(const SharedError::CalibrationRow& by_calibration,
-                            const Eigen::Matrix<double, 2, kNodeSize>& by_drift) const;
+  template <int Rows>
+  Eigen::Matrix<double, Rows, SharedError::kSize> whitened(
+      const Eigen::Matrix<double, Rows, SharedError::kCalibrationSize>& by_calibration,
+      const Eigen::Matrix<double, Rows, kNodeSize>& by_drift) const {
+    Eigen::Matrix<double, Rows, SharedError::kSize> rows =
+        Eigen::Matrix<double, Rows, SharedError::kSize>::Zero();
+    rows.template middleCols<SharedError::kCalibrationSize>(SharedError::kCalibration) =
+        by_calibration * calibration_root;
+    rows.template middleCols<kNodeSize>(SharedError::kDrift) = by_drift * drift_root;
+    return rows;
+  }
 };
 
 }  // namespace geoloc

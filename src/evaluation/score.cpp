@@ -74,6 +74,12 @@ Score score_objects(const std::vector<Eigen::Vector2d>& objects,
   return score;
 }
 
+HeightScore score_heights(const std::vector<double>& errors_m) {
+  if (errors_m.empty()) return {};
+  const Eigen::Map<const Eigen::ArrayXd> errors(errors_m.data(), static_cast<Eigen::Index>(errors_m.size()));
+  return {std::sqrt(errors.square().mean()), std::sqrt((errors - errors.mean()).square().mean())};
+}
+
 double mean_nees(const std::vector<Gaussian2>& objects, const std::vector<Eigen::Vector2d>& targets,
                  const std::vector<std::optional<std::size_t>>& target_of_object) {
   double sum = 0.0;

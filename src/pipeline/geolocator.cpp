@@ -10,7 +10,7 @@
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "pipeline/geolocator_fields.hpp"
-#include "projection/camera_pose.hpp"
+#include "projection/frame_viewer.hpp"
 #include "settings/field_checker.hpp"
 #include "tracking/joint_tracker.hpp"
 #include "tracking/paper_tracker.hpp"
@@ -61,6 +61,7 @@ class Geolocator::Implementation {
   explicit Implementation(const GeolocatorConfig& given)
       : config(checked(given)),
         state(config.state),
+        viewer{state, config.camera.mount, config.camera_orientation},
         projector(config.projector, config.camera.intrinsics),
         tracker(make_tracker(config)) {
     selected_.reserve(config.max_detections);
@@ -75,6 +76,7 @@ class Geolocator::Implementation {
 
   const GeolocatorConfig config;
   StateProvider state;
+  const FrameViewer viewer;
   const Projector projector;
   const std::unique_ptr<Tracker> tracker;
   FrameView view;
@@ -82,7 +84,7 @@ class Geolocator::Implementation {
   Counters counters;
 
  private:
-  Rigid3d calibrated_camera_pose(const VehicleState& vehicle) const;
+  FrameView calibrated(FrameView view) const;
   void select(const std::vector<Detection>& detections);
   void locate();
 
@@ -91,23 +93,26 @@ class Geolocator::Implementation {
 
 bool Geolocator::Implementation::process(const FrameDetections& frame) {
   ++counters.frames;
-  const auto vehicle = vehicle_at(frame.captured_at);
-  if (!vehicle) {
+  const FrameStamp stamp{frame.captured_at, frame.captured_at_host};
+  const auto nominal_view = viewer.nominal_view(stamp, tracker->calibration().latency_s());
+  if (!nominal_view) {
     ++counters.frames_unusable;
     return false;
   }
   ++counters.frames_located;
-  view = {*vehicle, calibrated_camera_pose(*vehicle), frame.captured_at_host};
+  view = calibrated(*nominal_view);
   select(frame.detections);
   locate();
-  tracker->update({located, projector, view, *state.local_frame()});
+  tracker->update({located, projector, view, *state.local_frame(), stamp, viewer});
   return true;
 }
 
-Rigid3d Geolocator::Implementation::calibrated_camera_pose(const VehicleState& vehicle) const {
-  Rigid3d pose = enu_from_camera(vehicle, config.camera.mount, config.camera_orientation);
-  tracker->calibration().apply_to(pose);
-  return pose;
+FrameView Geolocator::Implementation::calibrated(FrameView nominal_view) const {
+  Rigid3d& pose = nominal_view.enu_from_camera;
+  nominal_view.lifted_m = tracker->lift_m(pose.translation.z() - config.projector.ground_height_above_home_m);
+  tracker->calibration().turn(pose);
+  pose.translation.z() += nominal_view.lifted_m;
+  return nominal_view;
 }
 
 void Geolocator::Implementation::select(const std::vector<Detection>& detections) {

@@ -75,7 +75,12 @@ std::optional<Eigen::Vector2d> Projector::reproject(const Eigen::Vector2d& posit
                                                     const Rigid3d& enu_from_camera) const {
   Eigen::Vector3d point_in_enu;
   point_in_enu << position_in_enu, config_.ground_height_above_home_m;
-  return camera_.pixel(enu_from_camera.inverse() * point_in_enu);
+  return reproject(point_in_enu, enu_from_camera);
+}
+
+std::optional<Eigen::Vector2d> Projector::reproject(const Eigen::Vector3d& position_in_enu,
+                                                    const Rigid3d& enu_from_camera) const {
+  return camera_.pixel(enu_from_camera.inverse() * position_in_enu);
 }
 
 bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_from_camera,

@@ -14,6 +14,9 @@ namespace geoloc {
 inline double mahalanobis_squared(const Eigen::Vector2d& residual, const Eigen::Matrix2d& covariance) {
   return residual.dot(covariance.inverse() * residual);
 }
+inline double mahalanobis_squared(const Eigen::Vector3d& residual, const Eigen::Matrix3d& covariance) {
+  return residual.dot(covariance.inverse() * residual);
+}
 
 /// Probability density of a residual [1/m^2]; covariance positive definite.
 inline double density(const Eigen::Vector2d& residual, const Eigen::Matrix2d& covariance) {

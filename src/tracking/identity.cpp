@@ -12,6 +12,8 @@ namespace {
 /// What two tracks of one object may differ by beyond their stated noise: its looks differ with the
 /// direction.
 constexpr double kSigmaSameObject_m = 0.15;
+/// Their heights also by what the height drifted until the vehicle came back.
+constexpr double kSigmaSameHeight_m = 0.5;
 /// Looks beside a younger neighbour that may show that a track was made of looks at both, how far they must
 /// be off together (chi-square, 2 degrees of freedom, 99.9 %), and how near to the line away from it.
 constexpr int kLooksToSplit = 5;
@@ -51,21 +53,24 @@ bool are_not_told_apart(const RestingObject& a, const RestingObject& b, double m
 
 /// The tracks' own noise is that of association: the sums count the noise of each frame as often as frames
 /// repeat it, which is too much for tracks that the same frames made.
-Eigen::Matrix2d covariance_of_difference(const RestingObject& a, const RestingObject& b,
-                                         const ArrowheadSolver::Solution& solution, const FrameNoise& noise) {
+PointMatrix covariance_of_difference(const RestingObject& a, const RestingObject& b,
+                                     const ArrowheadSolver::Solution& solution, const FrameNoise& noise) {
   const double fresh = 1.0 - noise.common_share(a.last_look - b.last_look);
   const double shares = noise.share_in_track(a.track.hits) + noise.share_in_track(b.track.hits);
-  return solution.covariance_of_difference(*a.landmark, *b.landmark) - a.own_covariance - b.own_covariance +
-         a.pixel_information.inverse() + b.pixel_information.inverse() + fresh * shares * noise.covariance +
-         2.0 * kSigmaSameObject_m * kSigmaSameObject_m * Eigen::Matrix2d::Identity();
+  const Point same_object_m(kSigmaSameObject_m, kSigmaSameObject_m, kSigmaSameHeight_m);
+  PointMatrix covariance = solution.covariance_of_difference(*a.landmark, *b.landmark) - a.own_covariance -
+                           b.own_covariance + a.pixel_covariance + b.pixel_covariance;
+  covariance.diagonal() += 2.0 * same_object_m.cwiseAbs2();
+  covariance.topLeftCorner<2, 2>() += fresh * shares * noise.covariance;
+  return covariance;
 }
 
 bool may_be_one(const RestingObject& a, const RestingObject& b, const ArrowheadSolver::Solution& solution,
                 const FrameNoise& noise, const JointTrackerConfig& config) {
   return are_not_told_apart(a, b, config.merge_radius_m) && !(a.is_known && b.is_known) &&
          std::min(a.track.hits, b.track.hits) >= kHitsToCompare &&
-         mahalanobis_squared(apart(a, b), covariance_of_difference(a, b, solution, noise)) <=
-             config.merge_gate;
+         mahalanobis_squared(Eigen::Vector3d(a.position_in_enu - b.position_in_enu),
+                             covariance_of_difference(a, b, solution, noise)) <= config.merge_gate;
 }
 
 void tell_neighbours_apart(const std::vector<Look>& looks, const Explanation& explanation,

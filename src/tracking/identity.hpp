@@ -15,8 +15,8 @@ namespace geoloc {
 bool are_not_told_apart(const RestingObject& a, const RestingObject& b, double merge_radius_m);
 
 /// Covariance of the difference of two tracks' positions [m^2].
-Eigen::Matrix2d covariance_of_difference(const RestingObject& a, const RestingObject& b,
-                                         const ArrowheadSolver::Solution& solution, const FrameNoise& noise);
+PointMatrix covariance_of_difference(const RestingObject& a, const RestingObject& b,
+                                     const ArrowheadSolver::Solution& solution, const FrameNoise& noise);
 
 /// Perhaps one object: not told apart, and known well enough to tell.
 bool may_be_one(const RestingObject& a, const RestingObject& b, const ArrowheadSolver::Solution& solution,

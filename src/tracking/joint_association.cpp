@@ -15,8 +15,9 @@ namespace {
 constexpr double kCostAlone = 5.53;
 /// Explanations tried of one frame.
 constexpr std::size_t kMostHypotheses = 32;
-/// A look farther from its track than this share of the gate may as well be of something new.
-constexpr double kSureShare = 0.5;
+/// A look may as well be of something new where leaving it alone costs less than this more: less than the
+/// ambiguity between two tracks, since for want of a look a new object is begun and may be merged later.
+constexpr double kAmbiguityAlone = 2.0;
 /// Assignment and shared error are found in turns.
 constexpr int kRounds = 2;
 /// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.
@@ -65,11 +66,12 @@ void JointAssociation::begin(std::size_t looks, double gate, double ambiguity) {
 
 void JointAssociation::add(const Pairing& pairing) {
   if (pairings_.size() == pairings_.capacity()) return;
-  const double cost = mahalanobis_squared(pairing.residual, prior_covariance(pairing)) + pairing.penalty;
+  const Eigen::Matrix2d covariance = prior_covariance(pairing);
+  const double cost = mahalanobis_squared(pairing.residual, covariance) + pairing.penalty;
   if (!(cost < gate_)) return;
   pairings_.push_back(pairing);
   double& least_cost = least_cost_of_look_[pairing.look];
-  least_cost = std::min(least_cost, cost);
+  least_cost = std::min(least_cost, cost + std::log(covariance.determinant()));
   ++pairings_of_look_[pairing.look];
   std::size_t& column = column_of_track_[pairing.track];
   if (column == kNone) {
@@ -96,7 +98,7 @@ void JointAssociation::Posterior::add(const Pairing& pairing) {
 
 /// A look with one track, but not near it: it may be of something new.
 bool JointAssociation::is_doubtful(std::size_t look) const {
-  return pairings_of_look_[look] > 0 && least_cost_of_look_[look] > kSureShare * gate_;
+  return pairings_of_look_[look] > 0 && least_cost_of_look_[look] > kCostAlone - kAmbiguityAlone;
 }
 
 /// No look has a choice, and no track.
@@ -145,6 +147,7 @@ void JointAssociation::explain(const Pairing* start, std::size_t look_left_alone
   const auto alone = std::count(hypothesis.pairing_of_look.begin(), hypothesis.pairing_of_look.end(), kNone);
   hypothesis.posterior = posterior;
   hypothesis.cost = posterior.cost + kCostAlone * static_cast<double>(alone);
+  if (look_left_alone != kNone) hypothesis.cost += ambiguity_ - kAmbiguityAlone;
 }
 
 /// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.

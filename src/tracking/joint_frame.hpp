@@ -52,6 +52,7 @@ struct JointFrame {
   NodeSpan span;     ///< drift nodes around the frame's time
   NodeVector drift;  ///< estimate at that time
   NoiseRepetition repetition;
+  double ground_height_m;  ///< of the level ground above home, in the lifted view, before the calibration
 
   VehicleTime time() const { return view.vehicle.time; }
 };
@@ -61,10 +62,17 @@ struct FrameShift {
   Eigen::Vector2d offset;  ///< constant error of the vehicle's position [m]
   Eigen::Vector2d drift;   ///< of it, what wanders [m]
   Eigen::Vector2d common;  ///< median of the frame's looks minus their tracks [m]
+  double level_m;          ///< height of the level ground in the frame's view
 
   /// Where the frame shows a place: corrections undone.
   Eigen::Vector2d shown(const Eigen::Vector2d& position_in_enu) const {
     return position_in_enu - offset - drift + common;
+  }
+
+  Eigen::Vector3d shown(Eigen::Vector3d point_in_enu) const {
+    point_in_enu.head<2>() = shown(Eigen::Vector2d(point_in_enu.head<2>()));
+    point_in_enu.z() += level_m;
+    return point_in_enu;
   }
 
   /// The frame shows a place at itself minus this [m].

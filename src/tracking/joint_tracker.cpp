@@ -31,9 +31,22 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
   return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
 }
 
+/// Stands for "exactly known": keeps the information finite.
+constexpr double kLeastSigmaGround_m = 1e-3;
+
+/// Objects lie this high above or below a plane.
+PointInformation level_ground(double sigma_m) {
+  PointInformation ground;
+  ground.matrix(2, 2) = 1.0 / std::pow(std::max(sigma_m, kLeastSigmaGround_m), 2);
+  return ground;
+}
+
 void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
-  for (RestingObject& track : tracks)
-    track.track.position_in_enu.covariance = solution.covariance(*track.landmark);
+  for (RestingObject& track : tracks) {
+    const PointMatrix covariance = solution.covariance(*track.landmark);
+    track.track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
+    track.sigma_height_m = std::sqrt(covariance(2, 2));
+  }
 }
 
 }  // namespace
@@ -42,7 +55,8 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
                            int max_detections)
     : config_(checked(config)),
       solver_(config.prior, config.drift.max_nodes),
-      errors_(accuracy_of(config), config.drift, solver_),
+      errors_(accuracy_of(config), {config.prior.height_m, config.prior.sigma_height_m}, config.drift,
+              solver_),
       noise_clock_(config.fast_time_constant_s, config.attitude_time_constant_s),
       schedule_(config.solve_period_s),
       look_maker_(config_, max_detections),
@@ -52,7 +66,6 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
       tracks_(config.max_tracks),
       moving_(config_, max_detections) {
   published_.reserve((config.moving.classes.empty() ? 1 : 2) * config.max_tracks);
-  landmarks_.reserve(config.max_tracks);
   known_candidates_.reserve(config.max_tracks);
 }
 
@@ -68,9 +81,11 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
 void JointTracker::update(const LocatedFrame& located) {
   const JointFrame frame = begin_frame(located);
   const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, frame.time(), tracks_);
-  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift};
+  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift,
+                         frame.ground_height_m - errors_.calibration.height_m()};
 
   const bool may_be_twins = weigh_missed(looks.at_rest, frame, shift, config_, detection_rate_, tracks_);
   if (may_be_twins) schedule_.request();
@@ -79,28 +94,42 @@ void JointTracker::update(const LocatedFrame& located) {
   begin_tentative(looks.at_rest, explanation, frame);
   tell_neighbours_apart(looks.at_rest, explanation, errors_, config_.merge_radius_m, tracks_);
   remove_improbable();
-  moving_.update(
-      looks.moving,
-      {frame, shift.correction(), errors_.calibration.covariance.block<2, 2>(Index::kOffset, Index::kOffset),
-       detection_rate_.probability()},
-      book_);
-  if (schedule_.is_due(frame.time())) refine(frame, noise);
-  publish();
+  moving_.update(looks.moving,
+                 {frame, shift, errors_.calibration.covariance.block<2, 2>(Index::kOffset, Index::kOffset),
+                  detection_rate_.probability()},
+                 book_);
+  if (schedule_.is_due(frame.time())) refine(frame, noise, located.viewer);
+  publish(located.projector);
+}
+
+/// Tracks hold what was whitened with the roots, so that these change with the solution only.
+void JointTracker::bound_height(const Projector& projector, const FrameView& view) {
+  errors_.bound_height(view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m);
 }
 
 JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   const VehicleState& vehicle = located.view.vehicle;
   if (vehicle.sigma_horizontal_m)
     errors_.accuracy.radial_m = std::clamp(*vehicle.sigma_horizontal_m, kLeastAccuracy_m, kMostAccuracy_m);
+  const double ground_height_m =
+      located.projector.config().ground_height_above_home_m + located.view.lifted_m;
+  if (errors_.drift.size() == 0) {
+    const double reported_m = located.view.enu_from_camera.translation.z() - ground_height_m;
+    errors_.height_prior = seen_from(reported_m, errors_.height_prior);
+    errors_.calibration.mean[Index::kHeight] = errors_.height_prior.mean_m;
+    bound_height(located.projector, located.view);
+  }
   schedule_.count_frame();
   tracks_.clear_evidence();
   DriftTimeline& drift = errors_.drift;
   const NodeSpan span = drift.cover(vehicle.time, errors_.accuracy.wandering_sigma_m());
   while (drift.size() > config_.drift.max_nodes) {
+    opening_looks_.close();
     for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
     drift.freeze_oldest();
   }
-  return {located.projector, located.view, span, drift.at(span), noise_clock_.tick(vehicle.time)};
+  return {located.projector, located.view, span, drift.at(span), noise_clock_.tick(vehicle.time),
+          ground_height_m};
 }
 
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {
@@ -122,6 +151,7 @@ void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanat
                         looks[i].clutter_density);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
     add_to_sums(track, looks[i], errors_);
+    opening_looks_.add(track.track.id, looks[i].detection);
     confirm_if_probable(track, config_.confirm_probability);
   }
 }
@@ -137,7 +167,9 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
     RestingObject& track = tracks_.append();
     begin_object(track, config_.birth_probability, frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
+    track.prior = level_ground(config_.sigma_ground_m);
     begin_sums(track, looks[i], errors_);
+    opening_looks_.add(track.track.id, looks[i].detection);
     track.look = i;
   }
 }
@@ -153,23 +185,25 @@ void JointTracker::remove_improbable() {
   }
 }
 
-void JointTracker::refine(const JointFrame& frame, const FrameNoise& noise) {
+void JointTracker::refine(const JointFrame& frame, const FrameNoise& noise, const FrameViewer& viewer) {
   schedule_.begin_solution(frame.time());
-  const auto solution = solve(frame);
+  const auto solution = solve(frame, viewer);
   if (!solution) return;
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
   update_covariances(*solution, tracks_);
   if (!match_known_points(*solution, noise)) return;
-  if (const auto with_known_points = solve(frame)) update_covariances(*with_known_points, tracks_);
+  if (const auto with_known_points = solve(frame, viewer)) update_covariances(*with_known_points, tracks_);
 }
 
-std::optional<ArrowheadSolver::Solution> JointTracker::solve(const JointFrame& frame) {
-  landmarks_.clear();
-  for (const RestingObject& track : tracks_) landmarks_.push_back(track.landmark);
-  const auto solution = solver_.solve(landmarks_, errors_.offset_sigma_m(), errors_.drift);
+std::optional<ArrowheadSolver::Solution> JointTracker::solve(const JointFrame& frame,
+                                                             const FrameViewer& viewer) {
+  if (opening_looks_.is_open())
+    opening_looks_.linearise_anew(viewer, frame.projector, look_maker_, errors_, tracks_);
+  const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift);
   if (!solution) return std::nullopt;
   errors_.take(*solution);
+  bound_height(frame.projector, frame.view);
   for (RestingObject& track : tracks_) refresh(track, errors_, frame.span);
   return solution;
 }
@@ -199,11 +233,11 @@ void JointTracker::merge_compatible(const Solution& solution, const JointFrame& 
 void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
   RestingObject& kept = tracks_[kept_row];
   const RestingObject& gone = tracks_[gone_row];
-  kept.landmark->merge(*gone.landmark, errors_.drift);
-  kept.pixel_information += gone.pixel_information;
+  merge_sums(kept, gone, errors_.drift);
   kept.is_known = kept.is_known || gone.is_known;
   merge_into(kept, gone);
   known_points_.rename(gone.track.id, kept.track.id);
+  opening_looks_.rename(gone.track.id, kept.track.id);
   for (RestingObject& track : tracks_) track.neighbours.rename(gone.track.id, kept.track.id);
   tracks_.remove(gone_row);
   ++book_.counters.merged;
@@ -220,9 +254,10 @@ bool JointTracker::match_known_points(const Solution& solution, const FrameNoise
     const Track& track = object.track;
     if (track.hits < kHitsToCompare) continue;
     variance += 0.5 * track.position_in_enu.covariance.trace();
-    own_variance += before == nullptr
-                        ? 0.5 * object.own_covariance.trace()
-                        : 0.25 * covariance_of_difference(*before, object, solution, noise).trace();
+    own_variance +=
+        before == nullptr
+            ? 0.5 * object.own_covariance.topLeftCorner<2, 2>().trace()
+            : 0.25 * covariance_of_difference(*before, object, solution, noise).topLeftCorner<2, 2>().trace();
     known_candidates_.push_back(
         {track.id, object.is_confirmed(), track.class_id(), track.position_in_enu.mean});
     before = &object;
@@ -235,14 +270,15 @@ bool JointTracker::match_known_points(const Solution& solution, const FrameNoise
   for (RestingObject& object : tracks_) {
     const auto survey = known_points_.survey_of(object.track.id);
     if (!survey || object.is_known) continue;
-    object.landmark->add_prior(survey->position_in_enu,
-                               Eigen::Matrix2d::Identity() / (survey->sigma_m * survey->sigma_m));
+    add_prior(object, survey->information());
     object.is_known = true;
   }
   return true;
 }
 
-void JointTracker::publish() {
+void JointTracker::publish(const Projector& projector) {
+  const double ground_height_above_home_m =
+      projector.config().ground_height_above_home_m - errors_.calibration.height_m();
   published_.clear();
   const auto& moving = moving_.objects();
   auto next_moving = moving.begin();
@@ -250,6 +286,8 @@ void JointTracker::publish() {
     for (; next_moving != moving.end() && next_moving->track.id < object.track.id; ++next_moving)
       published_.push_back(next_moving->track);
     published_.push_back(object.track);
+    published_.back().height =
+        HeightEstimate{object.position_in_enu.z() + ground_height_above_home_m, object.sigma_height_m};
   }
   for (; next_moving != moving.end(); ++next_moving) published_.push_back(next_moving->track);
 }

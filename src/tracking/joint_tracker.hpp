@@ -14,6 +14,7 @@
 #include "tracking/look_maker.hpp"
 #include "tracking/look_matcher.hpp"
 #include "tracking/moving_tracker.hpp"
+#include "tracking/opening_looks.hpp"
 #include "tracking/solution_schedule.hpp"
 #include "tracking/track_table.hpp"
 #include "tracking/tracker.hpp"
@@ -33,12 +34,16 @@ class JointTracker final : public Tracker {
   const std::vector<Track>& tracks() const override { return published_; }
   const TrackCounters& counters() const override { return book_.counters; }
   const Calibration& calibration() const override { return errors_.calibration; }
+  double lift_m(double reported_height_above_ground_m) const override {
+    return errors_.lift_m(reported_height_above_ground_m);
+  }
   std::optional<Calibration> calibration_of_camera() const override;
   const std::vector<KnownPointMatch>& known_points() const override { return known_points_.matches(); }
 
  private:
   using Solution = ArrowheadSolver::Solution;
 
+  void bound_height(const Projector& projector, const FrameView& view);
   JointFrame begin_frame(const LocatedFrame& frame);
   void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
   void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
@@ -46,13 +51,13 @@ class JointTracker final : public Tracker {
   void begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
                        const JointFrame& frame);
   void remove_improbable();
-  void refine(const JointFrame& frame, const FrameNoise& noise);
-  std::optional<Solution> solve(const JointFrame& frame);
+  void refine(const JointFrame& frame, const FrameNoise& noise, const FrameViewer& viewer);
+  std::optional<Solution> solve(const JointFrame& frame, const FrameViewer& viewer);
   void learn_wandering(const Solution& solution);
   void merge_compatible(const Solution& solution, const JointFrame& frame, const FrameNoise& noise);
   void merge(std::size_t kept, std::size_t gone);
   bool match_known_points(const Solution& solution, const FrameNoise& noise);
-  void publish();
+  void publish(const Projector& projector);
 
   const JointTrackerConfig config_;
   ArrowheadSolver solver_;
@@ -64,10 +69,10 @@ class JointTracker final : public Tracker {
   DetectionRate detection_rate_;
   KnownPointMatcher known_points_;
   TrackTable tracks_;
+  OpeningLooks opening_looks_;
   MovingTracker moving_;
   TrackBook book_;
   std::vector<Track> published_;
-  std::vector<const Landmark*> landmarks_;                      // scratch of solve
   std::vector<KnownPointMatcher::Candidate> known_candidates_;  // scratch of match_known_points
 };
 

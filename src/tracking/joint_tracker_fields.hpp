@@ -39,6 +39,8 @@ void visit_noise_fields(Visitor& v, JointTrackerConfig& joint) {
           "Share of the position's accuracy that changes from second to second");
   v.field("fast_time_constant_s", joint.fast_time_constant_s, Range::closed(0, 100), "s",
           "Frames within it share this part of their position noise");
+  v.field("sigma_ground_m", joint.sigma_ground_m, Range::closed(0, 1000), "m",
+          "1-sigma of the height of an object above or below the level ground; 0: all lie on the plane");
   v.field("sigma_attitude_bias_deg", joint.sigma_attitude_bias_deg, Range::closed(0, 30), "deg",
           "1-sigma of the autopilot's own constant error of roll and pitch, which no look can tell from the "
           "camera's");
@@ -77,7 +79,8 @@ void visit_life_cycle_fields(Visitor& v, JointTrackerConfig& joint) {
   v.field("merge_radius_m", joint.merge_radius_m, Range::closed(0, 1000), "m",
           "Tracks nearer to each other than this may be one object");
   v.field("merge_gate", joint.merge_gate, Range::above(0, 1000), "",
-          "Squared Mahalanobis distance up to which they are one; 9.2 holds 99 %");
+          "Squared Mahalanobis distance up to which they are one; 11.3 holds 99 % (chi-square, 3 degrees of "
+          "freedom)");
   v.field("max_tracks", joint.max_tracks, Range::closed(1, 20000), "", "Most objects at a time");
 }
 

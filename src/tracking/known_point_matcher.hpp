@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "calibration/landmark.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "tracking/joint_association.hpp"
@@ -35,6 +36,14 @@ class KnownPointMatcher {
   struct Survey {
     Eigen::Vector2d position_in_enu;
     double sigma_m;  ///< 1-sigma per axis
+
+    /// As a prior of the object: nothing is said of its height.
+    PointInformation information() const {
+      const double per_axis = 1.0 / (sigma_m * sigma_m);
+      const Point diagonal(per_axis, per_axis, 0.0);
+      return {diagonal.asDiagonal(),
+              diagonal.cwiseProduct(Point(position_in_enu.x(), position_in_enu.y(), 0.0))};
+    }
   };
 
   KnownPointMatcher(std::vector<KnownPoint> points, int max_tracks);

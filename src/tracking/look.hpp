@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "calibration/landmark.hpp"
@@ -14,10 +16,24 @@ namespace geoloc {
 struct Look {
   Detection detection;
   LandmarkObservation observation;
-  Eigen::Vector2d position;     ///< east, north [m], corrected by calibration and drift
+  Eigen::Vector2d position;     ///< east, north [m] on the level ground, corrected by calibration and drift
   Eigen::Matrix2d pixel_noise;  ///< covariance that the detector's noise causes on the ground [m^2]
   Eigen::Matrix2d frame_noise;  ///< covariance of attitude and position, shared by the looks of a frame [m^2]
   SharedError::Row jacobian;    ///< d position / d shared error, whitened [m]
+
+  /// The slope of the ray that meets the level ground there.
+  Eigen::Vector2d slope_at(const Eigen::Vector2d& place) const {
+    return observation.slope + (position - place) / camera_height_m;
+  }
+
+  /// Where the look's frame shows a point of that height: what is to be compared with `position`.
+  Eigen::Vector2d shown(const Point& point_in_enu) const {
+    const double nearer = std::max(0.1, 1.0 - point_in_enu.z() / camera_height_m);
+    const Eigen::Vector2d place = point_in_enu.head<2>();
+    return place - slope_at(place) * point_in_enu.z() / nearer;
+  }
+
+  double camera_height_m = std::numeric_limits<double>::infinity();  ///< above the level ground
   double clutter_density = 0.0;  ///< false boxes per frame and area [1/m^2]
   double ground_per_pixel_m = 0.0;
   double size_m = 0.0;
@@ -26,7 +42,8 @@ struct Look {
 /// All looks of a frame.
 struct FrameLooks {
   std::vector<Look> at_rest;
-  std::vector<Look> moving;                               ///< at objects of classes that may move
+  double share_attitude = 0.0;  ///< how many detections at rest share the noise of the attitude
+  std::vector<Look> moving;     ///< at objects of classes that may move
   Eigen::Matrix2d frame_noise = Eigen::Matrix2d::Zero();  ///< mean of the looks' [m^2]
 };
 

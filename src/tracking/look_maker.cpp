@@ -48,9 +48,11 @@ Noise noise_of(const FixJacobians& jacobians, const JointTrackerConfig& config,
 }
 
 /// The calibration that the fix already holds: all but the offset.
-CalibrationVector applied(const Calibration& calibration) {
+CalibrationVector applied(const Calibration& calibration, const FrameView& view) {
   CalibrationVector applied = calibration.mean;
   applied.segment<2>(Index::kOffset).setZero();
+  applied[Index::kLatency] = view.latency_s;
+  applied[Index::kHeight] = view.lifted_m;
   return applied;
 }
 
@@ -72,10 +74,10 @@ const FrameLooks& LookMaker::make(const std::vector<LocatedDetection>& detection
   const auto is_moving = [&](const LocatedDetection& located) {
     return is_of_moving_class(located.detection, config_.moving);
   };
-  const auto at_rest =
+  looks_.share_attitude =
       static_cast<double>(std::count_if(detections.begin(), detections.end(), std::not_fn(is_moving)));
   for (const LocatedDetection& located : detections) {
-    const Look look = make_look(located, at_rest, frame, errors);
+    const Look look = make_look(located, looks_.share_attitude, frame, errors);
     std::vector<Look>& kind = is_moving(located) ? looks_.moving : looks_.at_rest;
     if (!is_duplicate(look, kind, config_.duplicate_share)) kind.push_back(look);
   }
@@ -103,7 +105,10 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   look.detection = located.detection;
   look.pixel_noise = fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
   look.frame_noise = noise.attitude + noise.position;
-  look.observation.value = fix.position_in_enu - jacobians.calibration * applied(errors.calibration);
+  look.observation.value =
+      fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
+  look.observation.slope = -jacobians.height;
+  look.camera_height_m = height_m + errors.calibration.height_m() - frame.view.lifted_m;
   look.observation.calibration_jacobian = jacobians.calibration;
   look.observation.node_jacobian = jacobians.node;
   look.observation.span = frame.span;
@@ -111,9 +116,10 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
       (look.pixel_noise + noise.time + frame.repetition.of_attitude * looks_that_share * noise.attitude +
        frame.repetition.of_position * noise.position)
           .inverse();
-  look.position = fix.position_in_enu + errors.calibration.offset_m() + jacobians.node * frame.drift;
+  look.position =
+      look.observation.value + jacobians.calibration * errors.calibration.mean + jacobians.node * frame.drift;
   look.jacobian =
-      errors.whitened(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
+      errors.whitened<2>(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
   look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * jacobians.calibration.col(Index::kLatency);
   const CameraIntrinsics& camera = projector.camera().intrinsics();
   const double ground_per_pixel_m2 = std::abs(fix.ground_from_pixel.determinant());

@@ -22,10 +22,11 @@ class LookMaker {
   const FrameLooks& make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,
                          const SharedErrorEstimate& errors);
 
- private:
+  /// One of them, which shares the attitude's noise with so many; all but the Jacobian by the frame's noise.
   Look make_look(const LocatedDetection& located, double looks_that_share, const JointFrame& frame,
                  const SharedErrorEstimate& errors) const;
 
+ private:
   const JointTrackerConfig& config_;
   FrameLooks looks_;
 };

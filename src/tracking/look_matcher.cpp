@@ -9,15 +9,33 @@
 namespace geoloc {
 namespace {
 
+/// What the looks of one frame may differ in where the camera stands: by the drift of the yaw, a little.
+constexpr double kReachMargin = 1.1;
+
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-SharedError::Row mean_jacobian(const std::vector<Look>& looks) {
+using HeightRow = Eigen::Matrix<double, 1, SharedError::kSize>;
+
+/// What the shared errors do to the heights of all tracks.
+HeightRow mean_height_sensitivity(const TrackTable& tracks) {
+  HeightRow mean = HeightRow::Zero();
+  for (const RestingObject& track : tracks) mean += track.sensitivity.row(2);
+  if (tracks.size() > 0) mean /= static_cast<double>(tracks.size());
+  return mean;
+}
+
+/// A look's Jacobian against a track whose height follows the shared errors as the tracks' do in the mean.
+SharedError::Row jacobian_at(const Look& look, const HeightRow& height_sensitivity) {
+  return look.jacobian + look.observation.slope * height_sensitivity;
+}
+
+SharedError::Row mean_jacobian(const std::vector<Look>& looks, const HeightRow& height_sensitivity) {
   SharedError::Row mean = SharedError::Row::Zero();
-  for (const Look& look : looks) mean += look.jacobian;
+  for (const Look& look : looks) mean += jacobian_at(look, height_sensitivity);
   mean /= static_cast<double>(looks.size());
   return mean;
 }
@@ -48,32 +66,45 @@ const Explanation& LookMatcher::explain(const std::vector<Look>& looks, const Fr
   return explanation_;
 }
 
-void LookMatcher::list_reaches(const TrackTable& tracks, const SharedError::Row& mean,
-                               double frame_variance) {
+/// The looks of a frame share the camera's place: where it shows a track, and along what slope, any of them
+/// tells.
+void LookMatcher::list_reaches(const Look& any_look, const TrackTable& tracks,
+                               const SharedError::Row& mean_of_looks, const HeightRow& mean_of_heights) {
   reach_of_track_.clear();
   for (const RestingObject& track : tracks) {
-    reach_of_track_.push_back({track.track.position_in_enu.mean,
-                               track.own_covariance.trace() + frame_variance,
-                               (track.sensitivity - mean).norm()});
+    const Eigen::Vector2d shown = any_look.shown(track.position_in_enu);
+    const double slope = any_look.slope_at(shown).norm();
+    const double own_m = std::sqrt(track.own_covariance.topLeftCorner<2, 2>().trace()) +
+                         slope * std::sqrt(track.own_covariance(2, 2));
+    const double shared_m = (track.sensitivity.topRows<2>() - mean_of_looks).norm() +
+                            slope * (track.sensitivity.row(2) - mean_of_heights).norm();
+    reach_of_track_.push_back({shown, own_m * own_m, shared_m});
   }
 }
 
 /// All tracks that a look may show; those that are farther than the trace of the covariance allows are not
-/// looked at closely.
+/// looked at closely. What moves the mean height moves a track along its ray, by a share of its distance
+/// from the look: (s + a d)^2 <= 2 s^2 + 2 a^2 d^2.
 void LookMatcher::add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, VehicleTime now,
                                const TrackTable& tracks) {
   if (looks.empty()) return;
-  const SharedError::Row mean = mean_jacobian(looks);
-  list_reaches(tracks, mean, noise.covariance.trace());
+  const HeightRow mean_of_heights = mean_height_sensitivity(tracks);
+  const SharedError::Row mean_of_looks = mean_jacobian(looks, mean_of_heights);
+  list_reaches(looks.front(), tracks, mean_of_looks, mean_of_heights);
+  const double frame_variance = noise.covariance.trace();
   for (std::size_t i = 0; i < looks.size(); ++i) {
-    const Reach look{looks[i].position, looks[i].pixel_noise.trace(), (looks[i].jacobian - mean).norm()};
+    const Look& look = looks[i];
+    const double shared_by_look_m = (jacobian_at(look, mean_of_heights) - mean_of_looks).norm();
+    const double variance_of_look = look.pixel_noise.trace() + frame_variance;
+    const double by_distance = mean_of_heights.norm() / look.camera_height_m;
+    const double share = 1.0 - 2.0 * config_.gate * by_distance * by_distance;
     for (std::size_t k = 0; k < tracks.size(); ++k) {
       const Reach& track = reach_of_track_[k];
-      const double shared_m = look.shared_m + track.shared_m;
-      const double variance = look.own_variance + track.own_variance + shared_m * shared_m;
-      const bool is_within_reach = (look.position - track.position).squaredNorm() < config_.gate * variance;
-      if (!is_within_reach) continue;
-      Pairing pair = pairing(looks[i], tracks[k], noise, now);
+      const double shared_m = shared_by_look_m + track.shared_m;
+      const double variance = variance_of_look + track.own_variance + 2.0 * shared_m * shared_m;
+      const double squared_distance = (look.position - track.shown).squaredNorm();
+      if (!(share * squared_distance < kReachMargin * config_.gate * variance)) continue;
+      Pairing pair = pairing(look, tracks[k], noise, now);
       pair.look = i;
       pair.track = k;
       association_.add(pair);
@@ -88,11 +119,13 @@ Pairing LookMatcher::pairing(const Look& look, const RestingObject& track, const
   const double share = noise.share_in_track(track.track.hits);
   const double fresh = 1.0 - share * noise.common_share(now - track.last_look);
   Pairing pairing;
-  pairing.residual = look.position - track.track.position_in_enu.mean;
-  pairing.jacobian = look.jacobian - track.sensitivity;
+  const Eigen::Vector2d shown = look.shown(track.position_in_enu);
+  const Eigen::Matrix<double, 2, kPointSize> H = LandmarkObservation::point_jacobian_of(look.slope_at(shown));
+  pairing.residual = look.position - shown;
+  pairing.jacobian = look.jacobian - H * track.sensitivity;
   pairing.jacobian.middleCols<2>(SharedError::kFrame) *= std::sqrt(fresh);
   pairing.own_covariance =
-      look.pixel_noise + track.pixel_information.inverse() + fresh * share * noise.covariance;
+      look.pixel_noise + H * track.pixel_covariance * H.transpose() + fresh * share * noise.covariance;
   pairing.penalty = look.detection.class_id == track.track.class_id() ? 0.0 : config_.class_mismatch_cost;
   return pairing;
 }
@@ -137,7 +170,8 @@ Eigen::Vector2d LookMatcher::common_shift(const std::vector<Look>& looks, const 
     for (std::size_t i = 0; i < looks.size(); ++i) {
       const auto track = explanation_.match_of_look[i].track;
       if (!track) continue;
-      median_scratch_.push_back(looks[i].position[axis] - tracks[*track].track.position_in_enu.mean[axis]);
+      const Eigen::Vector2d shown = looks[i].shown(tracks[*track].position_in_enu);
+      median_scratch_.push_back(looks[i].position[axis] - shown[axis]);
     }
     if (median_scratch_.size() >= 2) shift[axis] = median(median_scratch_);
   }

@@ -31,16 +31,19 @@ class LookMatcher {
                              TrackTable& tracks);
 
  private:
+  using HeightRow = Eigen::Matrix<double, 1, SharedError::kSize>;
+
   /// How far a track can be from a look that shows it: a bound that is cheap for every pair of them.
   struct Reach {
-    Eigen::Vector2d position;
-    double own_variance = 0.0;  // trace
-    double shared_m = 0.0;      // distance of its Jacobian from the looks' mean one
+    Eigen::Vector2d shown;  // where the frame shows it
+    double own_variance;    // trace
+    double shared_m;        // distance of its Jacobian from the looks' mean one
   };
 
   void add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, VehicleTime now,
                     const TrackTable& tracks);
-  void list_reaches(const TrackTable& tracks, const SharedError::Row& mean, double frame_variance);
+  void list_reaches(const Look& any_look, const TrackTable& tracks, const SharedError::Row& mean_of_looks,
+                    const HeightRow& mean_of_heights);
   Pairing pairing(const Look& look, const RestingObject& track, const FrameNoise& noise,
                   VehicleTime now) const;
   void prefer_older_twins(const TrackTable& tracks);

@@ -24,8 +24,9 @@ const RestingObject* seen_as(const RestingObject& track, const TrackTable& track
 ShownObject shown_object(const RestingObject& track, const std::vector<Look>& looks,
                          const FrameShift& shift) {
   ShownObject object;
-  object.position_in_enu = shift.shown(track.track.position_in_enu.mean);
-  object.sigma_m = std::sqrt(track.own_covariance.trace() + track.sensitivity.squaredNorm());
+  object.position_in_enu = shift.shown(track.position_in_enu);
+  object.sigma_m = std::sqrt(track.own_covariance.topLeftCorner<2, 2>().trace() +
+                             track.sensitivity.topRows<2>().squaredNorm());
   object.size_m = track.size_m;
   // Its look's is as good and known already.
   if (track.look) object.ground_per_pixel_m = looks[*track.look].ground_per_pixel_m;

@@ -129,7 +129,7 @@ void MovingTracker::weigh_missed(const Context& context) {
     MovingObject& object = objects_[k];
     if (object.is_seen) continue;
     ShownObject shown;
-    shown.position_in_enu = object.motion.position() - context.correction;
+    shown.position_in_enu << object.motion.position() - context.shift.correction(), context.shift.level_m;
     shown.sigma_m = std::sqrt(object.motion.position_covariance().trace());
     shown.size_m = object.size_m;
     object.existence.miss(context.detection_probability * visibility(shown, context.frame.projector,

@@ -18,7 +18,9 @@ namespace geoloc {
 /// An object that may move.
 struct MovingObject : TrackedObject {
   ConstantVelocity motion;  ///< at the present frame
-  bool is_lost = false;     ///< it could be anywhere: no look is its any more
+  /// d position / d shared error of the next looks, whitened [m].
+  SharedError::Row sensitivity = SharedError::Row::Zero();
+  bool is_lost = false;  ///< it could be anywhere: no look is its any more
 };
 
 /// Objects of the classes that may move: a Kalman filter with constant velocity each. They use what is known
@@ -30,7 +32,7 @@ class MovingTracker {
   /// What is known of a frame besides its looks.
   struct Context {
     const JointFrame& frame;
-    Eigen::Vector2d correction;         ///< the frame shows a place at itself minus this [m]
+    const FrameShift& shift;
     Eigen::Matrix2d offset_covariance;  ///< of the vehicle's constant position error [m^2]
     double detection_probability;       ///< of an object in full view
   };

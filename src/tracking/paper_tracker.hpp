@@ -31,6 +31,7 @@ class PaperTracker final : public Tracker {
   const std::vector<Track>& tracks() const override { return tracks_; }
   const TrackCounters& counters() const override { return counters_; }
   const Calibration& calibration() const override { return no_calibration_; }
+  double lift_m(double) const override { return 0.0; }
   std::optional<Calibration> calibration_of_camera() const override { return std::nullopt; }
   const std::vector<KnownPointMatch>& known_points() const override { return no_known_points_; }
 

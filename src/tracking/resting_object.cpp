@@ -2,13 +2,14 @@
 #include "tracking/resting_object.hpp"
 
 #include <Eigen/LU>
+#include <cmath>
 
 namespace geoloc {
 namespace {
 
 /// The part of an object's sums that comes from the drift nodes of this moment.
-Eigen::Matrix<double, 2, kNodeSize> recent_drift(const Landmark& landmark, const NodeSpan& now) {
-  Eigen::Matrix<double, 2, kNodeSize> sum = Eigen::Matrix<double, 2, kNodeSize>::Zero();
+Landmark::NodeRows recent_drift(const Landmark& landmark, const NodeSpan& now) {
+  Landmark::NodeRows sum = Landmark::NodeRows::Zero();
   for (const Landmark::NodeTerms& terms : landmark) {
     if (terms.number >= now.first) sum += terms.B;
   }
@@ -20,24 +21,57 @@ Eigen::Matrix<double, 2, kNodeSize> recent_drift(const Landmark& landmark, const
 void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now) {
   const Landmark& landmark = *object.landmark;
   object.own_covariance = landmark.A().inverse();
-  object.sensitivity =
-      errors.whitened(object.own_covariance * landmark.B().leftCols<SharedError::kCalibrationSize>(),
-                      object.own_covariance * recent_drift(landmark, now));
-  object.track.position_in_enu.mean = landmark.position(errors.calibration.mean, errors.drift);
+  object.pixel_covariance = object.pixel_information.inverse();
+  object.sensitivity = errors.whitened<kPointSize>(
+      object.own_covariance * landmark.B().leftCols<SharedError::kCalibrationSize>(),
+      object.own_covariance * recent_drift(landmark, now));
+  object.position_in_enu = landmark.position(errors.calibration.mean, errors.drift);
+  object.track.position_in_enu.mean = object.position_in_enu.head<2>();
+}
+
+void clear_sums(RestingObject& object) {
+  *object.landmark = Landmark{};
+  object.landmark->add_prior(object.prior);
+  object.pixel_information = object.prior.matrix;
+}
+
+void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift) {
+  const Eigen::Matrix<double, 2, kPointSize> H = look.observation.point_jacobian();
+  object.landmark->add(look.observation, drift);
+  object.pixel_information += H.transpose() * look.pixel_noise.inverse() * H;
 }
 
 void add_to_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors) {
-  object.landmark->add(look.observation, errors.drift);
-  object.pixel_information += look.pixel_noise.inverse();
+  add_look(object, look, errors.drift);
   refresh(object, errors, look.observation.span);
 }
 
 void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors) {
-  *object.landmark = Landmark{};
-  object.pixel_information.setZero();
+  clear_sums(object);
   object.mixture = Mixture{};
+  object.sums_since = object.last_look;
   add_to_sums(object, look, errors);
-  object.track.position_in_enu.covariance = look.pixel_noise + look.jacobian * look.jacobian.transpose();
+  SharedError::PointRow shared = errors.above_home(object.sensitivity);
+  // The noise of the look's frame is the object's, while there is no other look.
+  constexpr int kOfFrame = SharedError::kSize - SharedError::kFrame;
+  shared.topRightCorner<2, kOfFrame>() = look.jacobian.rightCols<kOfFrame>();
+  const PointMatrix covariance = object.pixel_covariance + shared * shared.transpose();
+  object.track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
+  object.sigma_height_m = std::sqrt(covariance(2, 2));
+}
+
+void add_prior(RestingObject& object, const PointInformation& prior) {
+  object.prior += prior;
+  object.landmark->add_prior(prior);
+  object.pixel_information += prior.matrix;
+}
+
+void merge_sums(RestingObject& kept, const RestingObject& gone, const DriftTimeline& drift) {
+  const PointInformation once_too_often = gone.is_known ? kept.prior : gone.prior;  // that of the ground
+  kept.landmark->merge(*gone.landmark, drift);
+  kept.landmark->add_prior(-once_too_often);
+  kept.pixel_information += gone.pixel_information - once_too_often.matrix;
+  if (gone.is_known) kept.prior = gone.prior;
 }
 
 }  // namespace geoloc

@@ -23,10 +23,17 @@ struct Mixture {
 struct RestingObject : TrackedObject {
   Landmark* landmark = nullptr;  ///< sums over its looks; the table's
   Mixture mixture;
-  bool is_compared = false;                                     ///< with the others, since it can be
-  bool is_known = false;                                        ///< its surveyed place is in the sums
-  Eigen::Matrix2d pixel_information = Eigen::Matrix2d::Zero();  ///< sum of the looks' [1/m^2]
-  Eigen::Matrix2d own_covariance = Eigen::Matrix2d::Zero();     ///< A^-1 [m^2]
+  bool is_compared = false;               ///< with the others, since it can be
+  bool is_known = false;                  ///< its surveyed place is in the sums
+  PointInformation prior;                 ///< by the ground, and by a survey; in the sums
+  Point position_in_enu = Point::Zero();  ///< up: above the level ground [m]
+  double sigma_height_m = 0.0;
+  VehicleTime sums_since{};                             ///< earlier looks are not in the sums
+  PointMatrix pixel_information = PointMatrix::Zero();  ///< sum of the looks' and the ground's [1/m^2]
+  PointMatrix pixel_covariance = PointMatrix::Zero();   ///< its inverse [m^2]
+  PointMatrix own_covariance = PointMatrix::Zero();     ///< A^-1 [m^2]
+  /// d position / d shared error of the next looks, whitened [m].
+  SharedError::PointRow sensitivity = SharedError::PointRow::Zero();
 
   // The present frame's evidence.
   std::optional<std::size_t> look;     ///< that shows it, and nothing else
@@ -37,10 +44,22 @@ struct RestingObject : TrackedObject {
 /// Position and its derivatives from the sums; `now`: the drift nodes of the present frame.
 void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now);
 
+/// The look shows the object; refresh() is the caller's.
+void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift);
+
 /// The look shows the object.
 void add_to_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors);
 
-/// The object is known from this look alone.
+/// The object is known from this look and its prior alone.
 void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors);
+
+/// No look is in the sums.
+void clear_sums(RestingObject& object);
+
+/// More is known of the object from elsewhere.
+void add_prior(RestingObject& object, const PointInformation& prior);
+
+/// The looks of both are looks at one object. At most one of them is a known point.
+void merge_sums(RestingObject& kept, const RestingObject& gone, const DriftTimeline& drift);
 
 }  // namespace geoloc

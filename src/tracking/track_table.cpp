@@ -1,12 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/track_table.hpp"
 
+#include <algorithm>
+
 namespace geoloc {
 
 TrackTable::TrackTable(int max_tracks) : max_tracks_(max_tracks) {
   rows_.reserve(max_tracks_);
   landmarks_.reserve(max_tracks_);
   free_landmarks_.reserve(max_tracks_);
+  landmarks_of_rows_.reserve(max_tracks_);
+}
+
+const std::vector<const Landmark*>& TrackTable::landmarks() {
+  landmarks_of_rows_.clear();
+  for (const RestingObject& row : rows_) landmarks_of_rows_.push_back(row.landmark);
+  return landmarks_of_rows_;
+}
+
+RestingObject* TrackTable::find(std::uint64_t track_id) {
+  const auto is_before = [](const RestingObject& row, std::uint64_t id) { return row.track.id < id; };
+  const auto row = std::lower_bound(rows_.begin(), rows_.end(), track_id, is_before);
+  return row != rows_.end() && row->track.id == track_id ? &*row : nullptr;
 }
 
 RestingObject& TrackTable::append() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "calibration/landmark.hpp"
@@ -25,6 +26,12 @@ class TrackTable {
   auto begin() const { return rows_.begin(); }
   auto end() const { return rows_.end(); }
 
+  /// Those of all rows. The reference holds until the next call.
+  const std::vector<const Landmark*>& landmarks();
+
+  /// The row of an object; nullptr: there is none.
+  RestingObject* find(std::uint64_t track_id);
+
   /// A row at the end; its landmark is the caller's to begin. Only where the table is not full.
   RestingObject& append();
   void remove(std::size_t row);
@@ -37,6 +44,7 @@ class TrackTable {
   std::vector<RestingObject> rows_;
   std::vector<Landmark> landmarks_;  // their places are reused
   std::vector<Landmark*> free_landmarks_;
+  std::vector<const Landmark*> landmarks_of_rows_;  // scratch
 };
 
 }  // namespace geoloc

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "calibration/shared_error.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/tracking/track.hpp"
 #include "tracking/existence.hpp"
@@ -28,9 +27,7 @@ struct TrackedObject {
   Existence existence{0.5};
   Neighbours neighbours;
   VehicleTime last_look{};
-  double size_m = 0.0;  ///< apparent, mean
-  /// d position / d shared error of the next looks, whitened [m].
-  SharedError::Row sensitivity = SharedError::Row::Zero();
+  double size_m = 0.0;   ///< apparent, mean
   bool is_seen = false;  ///< in the present frame
 
   bool is_confirmed() const { return track.status == TrackStatus::kConfirmed; }

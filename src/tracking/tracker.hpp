@@ -10,6 +10,7 @@
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "geoloc/tracking/track.hpp"
+#include "projection/frame_viewer.hpp"
 
 namespace geoloc {
 
@@ -20,6 +21,8 @@ struct LocatedFrame {
   const Projector& projector;
   const FrameView& view;
   const LocalFrame& local_frame;  ///< of all positions; the same throughout a flight
+  FrameStamp stamp;
+  const FrameViewer& viewer;  ///< made `view`
 };
 
 /// Makes objects of the fixes of one frame after another.
@@ -39,6 +42,10 @@ class Tracker {
   /// What fixes are to be located with: the camera's constant errors and those of the autopilot's state in
   /// one. Zero where the method learns none.
   virtual const Calibration& calibration() const = 0;
+
+  /// By how much the camera is to be lifted so that the ground lies in the projector's plane [m], where the
+  /// vehicle reports it to be so high above that plane. Zero where the method learns no height.
+  virtual double lift_m(double reported_height_above_ground_m) const = 0;
 
   /// An estimate of the camera's errors alone: the autopilot's own are part of its sigma. nullopt where the
   /// method learns none.

@@ -11,7 +11,7 @@ namespace geoloc {
 
 /// An object where a frame would show it.
 struct ShownObject {
-  Eigen::Vector2d position_in_enu;  ///< corrections undone [m]
+  Eigen::Vector3d position_in_enu;  ///< corrections undone; up as in the camera's pose [m]
   double sigma_m = 0.0;             ///< of the position: square root of the covariance's trace
   double size_m = 0.0;
   std::optional<double> ground_per_pixel_m;  ///< at its place, where that is known already

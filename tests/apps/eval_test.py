@@ -92,6 +92,31 @@ class JointMethod(AppTest):
                 self.assertLessEqual(value, rmse_m[(*key, "paper")] + 0.05, key)
 
 
+class Hills(AppTest):
+    """Neither hills nor a take-off elsewhere are told to the estimator, and neither costs it anything to speak of."""
+
+    def test_the_stock_flights_over_hills(self):
+        result = run("geoloc_eval", "--flights", "stock", "--method", "joint", "--hills-m", 1.5, "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        (summary,) = json.loads((self.folder / "report.json").read_text())["summaries"]
+        self.assertEqual((summary["found"], summary["extra"], summary["merged_pairs"]), (summary["targets"], 0, 0))
+        self.assertLessEqual(summary["mean_rmse_m"], TOLERANCE * 0.048)
+        self.assertLessEqual(summary["mean_relative_rmse_m"], TOLERANCE * 0.042)
+        self.assertLessEqual(summary["mean_relative_height_rmse_m"], TOLERANCE * 0.050)
+        self.assertGreaterEqual(summary["mean_nees"], 0.5)
+        self.assertLessEqual(summary["mean_nees"], 3)
+
+    def test_a_take_off_elsewhere(self):
+        result = run("geoloc_eval", "--flights", "none", "--method", "joint", "--seeds", 0, "--sweep", "take-off",
+                     "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        (sweep,) = json.loads((self.folder / "report.json").read_text())["sweeps"]
+        self.assertEqual([point["value"] for point in sweep["points"]], [-20, -10, -5, 0, 5, 10, 20])
+        for point in sweep["points"]:
+            self.assertEqual((point["found"], point["extra"]), (point["targets"], 0), point["value"])
+            self.assertLessEqual(point["mean_rmse_m"], TOLERANCE * 0.046, point["value"])
+
+
 class Sweeps(AppTest):
     """One circumstance varied: the pictures, the page and the figures agree, whatever the number of threads."""
 

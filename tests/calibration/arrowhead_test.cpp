@@ -13,10 +13,19 @@
 namespace geoloc {
 namespace {
 
-constexpr double kOffsetSigma_m = 0.3;
+constexpr FlightPrior kFlight{0.7, 1.3, 0.3};
+/// Height of the ground under all objects, and its 1-sigma.
+constexpr double kGround_m = -0.8, kSigmaGround_m = 2.0;
 constexpr double kWanderSigma_m = 0.4;
 
-/// Random looks at random objects, over some drift nodes.
+PointInformation on_the_ground() {
+  PointInformation ground;
+  ground.matrix(2, 2) = 1.0 / (kSigmaGround_m * kSigmaGround_m);
+  ground.vector.z() = kGround_m * ground.matrix(2, 2);
+  return ground;
+}
+
+/// Random looks at random objects on the ground, over some drift nodes.
 class ArrowheadProblem : public ::testing::Test {
  protected:
   struct Look {
@@ -29,7 +38,9 @@ class ArrowheadProblem : public ::testing::Test {
   void make(std::size_t objects, int looks, double duration_s, Order order = Order::kByTurns) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
-    landmarks_.assign(objects, Landmark{});
+    Landmark unseen;
+    unseen.add_prior(on_the_ground());
+    landmarks_.assign(objects, unseen);
     for (int i = 0; i < looks; ++i) {
       Look look;
       const auto number = static_cast<std::size_t>(i);
@@ -39,6 +50,7 @@ class ArrowheadProblem : public ::testing::Test {
       o.span = drift_.cover(VehicleTime{from_seconds(duration_s * i / looks)}, kWanderSigma_m);
       for (double& value : o.calibration_jacobian.reshaped()) value = normal(random);
       for (double& value : o.node_jacobian.reshaped()) value = normal(random);
+      o.slope = {normal(random), normal(random)};
       o.value = {10.0 * static_cast<double>(look.object) + normal(random), normal(random)};
       Eigen::Matrix2d root;
       for (double& value : root.reshaped()) value = normal(random);
@@ -56,7 +68,7 @@ class ArrowheadProblem : public ::testing::Test {
 
   /// Solves and takes the solution over, as the estimate of shared errors does.
   ArrowheadSolver::Solution solve(ArrowheadSolver& solver, const std::vector<const Landmark*>& landmarks) {
-    const auto solution = solver.solve(landmarks, kOffsetSigma_m, drift_);
+    const auto solution = solver.solve(landmarks, kFlight, drift_);
     EXPECT_TRUE(solution);
     calibration_ = solution->calibration();
     for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
@@ -67,12 +79,35 @@ class ArrowheadProblem : public ::testing::Test {
 
   /// The same problem as one dense least-squares system over objects, calibration and nodes, solved by QR.
   struct Dense {
-    Eigen::VectorXd solution;  // objects (2 each), calibration, nodes
+    Eigen::VectorXd solution;  // objects (3 each), calibration, nodes
     Eigen::MatrixXd covariance;
+    Eigen::Index calibration;  // where it begins
+    Eigen::Index node_column(std::uint32_t place) const {
+      return calibration + CalibrationIndex::kSize + kNodeSize * static_cast<Eigen::Index>(place);
+    }
+
+    Point position(Eigen::Index object) const { return solution.segment<3>(3 * object); }
+    CalibrationVector calibration_mean() const {
+      return solution.segment<CalibrationIndex::kSize>(calibration);
+    }
+    CalibrationMatrix calibration_covariance() const {
+      return covariance.block<CalibrationIndex::kSize, CalibrationIndex::kSize>(calibration, calibration);
+    }
+
+    /// Rows that pick an object, with the calibration's height taken from its own.
+    Eigen::MatrixXd above_home(Eigen::Index object) const {
+      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(3, solution.size());
+      rows.middleCols<3>(3 * object).setIdentity();
+      rows(2, calibration + CalibrationIndex::kHeight) = -1.0;
+      return rows;
+    }
+    PointMatrix covariance_of(const Eigen::MatrixXd& rows) const {
+      return rows * covariance * rows.transpose();
+    }
   };
   Dense dense(const std::vector<std::size_t>& object_of) const {
     const auto objects = static_cast<Eigen::Index>(1 + *std::max_element(object_of.begin(), object_of.end()));
-    const Eigen::Index head = 2 * objects, nodes = drift_.size();
+    const Eigen::Index head = 3 * objects, nodes = drift_.size();
     const Eigen::Index size = head + CalibrationIndex::kSize + kNodeSize * nodes;
     const auto node_column = [&](std::uint32_t number) {
       return head + CalibrationIndex::kSize + kNodeSize * static_cast<Eigen::Index>(number - drift_.begin());
@@ -83,7 +118,9 @@ class ArrowheadProblem : public ::testing::Test {
       const auto& o = look.observation;
       const Eigen::Matrix2d root = o.information.llt().matrixU();
       Eigen::MatrixXd row = Eigen::MatrixXd::Zero(2, size);
-      row.middleCols<2>(2 * static_cast<Eigen::Index>(object_of[look.object])).setIdentity();
+      const Eigen::Index object = 3 * static_cast<Eigen::Index>(object_of[look.object]);
+      row.middleCols<2>(object).setIdentity();
+      row.col(object + 2) = -o.slope;
       row.middleCols<CalibrationIndex::kSize>(head) = -o.calibration_jacobian;
       row.middleCols<kNodeSize>(node_column(o.span.first)) -= (1 - o.span.weight_of_second) * o.node_jacobian;
       row.middleCols<kNodeSize>(node_column(o.span.first + 1)) -= o.span.weight_of_second * o.node_jacobian;
@@ -94,7 +131,11 @@ class ArrowheadProblem : public ::testing::Test {
         values.push_back(value[i]);
       }
     }
-    const Calibration prior = solver_.prior(kOffsetSigma_m);
+    for (Eigen::Index object = 0; object < objects; ++object) {
+      rows.push_back(Eigen::RowVectorXd::Unit(size, 3 * object + 2) / kSigmaGround_m);
+      values.push_back(kGround_m / kSigmaGround_m);
+    }
+    const Calibration prior = solver_.prior(kFlight);
     for (int i = 0; i < CalibrationIndex::kSize; ++i) {
       rows.push_back(Eigen::RowVectorXd::Unit(size, head + i) / prior.sigma(i));
       values.push_back(prior.mean[i] / prior.sigma(i));
@@ -113,23 +154,20 @@ class ArrowheadProblem : public ::testing::Test {
     for (std::size_t i = 0; i < rows.size(); ++i) A.row(static_cast<Eigen::Index>(i)) = rows[i];
     const Eigen::VectorXd b =
         Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-    return {A.colPivHouseholderQr().solve(b), (A.transpose() * A).inverse()};
+    return {A.colPivHouseholderQr().solve(b), (A.transpose() * A).inverse(), head};
   }
 
   void expect_objects_of(const ArrowheadSolver::Solution& solution, const Dense& expected) const {
-    const auto covariance = [&](std::size_t i, std::size_t j) {
-      return expected.covariance.block<2, 2>(2 * static_cast<Eigen::Index>(i),
-                                             2 * static_cast<Eigen::Index>(j));
-    };
-    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-      const Eigen::Vector2d position = landmarks_[i].position(calibration_.mean, drift_);
-      EXPECT_LT((position - expected.solution.segment<2>(2 * static_cast<Eigen::Index>(i))).norm(), 1e-8);
-      EXPECT_LT((solution.covariance(landmarks_[i]) - covariance(i, i)).norm(), 1e-8);
-      for (std::size_t j = 0; j < i; ++j) {
-        const Eigen::Matrix2d difference =
-            covariance(i, i) + covariance(j, j) - covariance(i, j) - covariance(j, i);
-        EXPECT_LT((solution.covariance_of_difference(landmarks_[i], landmarks_[j]) - difference).norm(),
-                  1e-8);
+    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(landmarks_.size()); ++i) {
+      const Landmark& landmark = landmarks_[static_cast<std::size_t>(i)];
+      EXPECT_LT((landmark.position(calibration_.mean, drift_) - expected.position(i)).norm(), 1e-8);
+      EXPECT_LT((solution.covariance(landmark) - expected.covariance_of(expected.above_home(i))).norm(),
+                1e-8);
+      for (Eigen::Index j = 0; j < i; ++j) {
+        const PointMatrix difference =
+            expected.covariance_of(expected.above_home(i) - expected.above_home(j));
+        const Landmark& other = landmarks_[static_cast<std::size_t>(j)];
+        EXPECT_LT((solution.covariance_of_difference(landmark, other) - difference).norm(), 1e-8);
       }
     }
   }
@@ -146,11 +184,8 @@ TEST_F(ArrowheadProblem, SolutionAndCovariancesAreThoseOfDenseLeastSquares) {
   make(5, 200, 40.0);
   const ArrowheadSolver::Solution solution = solve();
   const Dense expected = dense({0, 1, 2, 3, 4});
-  EXPECT_LT((calibration_.mean - expected.solution.segment<CalibrationIndex::kSize>(10)).norm(), 1e-8);
-  EXPECT_LT((calibration_.covariance -
-             expected.covariance.block<CalibrationIndex::kSize, CalibrationIndex::kSize>(10, 10))
-                .norm(),
-            1e-8);
+  EXPECT_LT((calibration_.mean - expected.calibration_mean()).norm(), 1e-8);
+  EXPECT_LT((calibration_.covariance - expected.calibration_covariance()).norm(), 1e-8);
   EXPECT_LT(
       (solution.newest_node_covariance() - expected.covariance.bottomRightCorner<kNodeSize, kNodeSize>())
           .norm(),
@@ -168,11 +203,13 @@ TEST_F(ArrowheadProblem, ObjectsSeenOneAfterAnotherAreThoseOfDenseLeastSquares) 
 TEST_F(ArrowheadProblem, MergingSumsIsHavingSeenOneObject) {
   make(4, 160, 30.0);
   landmarks_[1].merge(landmarks_[3], drift_);
+  landmarks_[1].add_prior(-on_the_ground());
   landmarks_.pop_back();
-  solve();
+  const ArrowheadSolver::Solution solution = solve();
   const Dense expected = dense({0, 1, 2, 1});
-  EXPECT_LT((calibration_.mean - expected.solution.segment<CalibrationIndex::kSize>(6)).norm(), 1e-8);
-  EXPECT_LT((landmarks_[1].position(calibration_.mean, drift_) - expected.solution.segment<2>(2)).norm(),
+  EXPECT_LT((calibration_.mean - expected.calibration_mean()).norm(), 1e-8);
+  EXPECT_LT((landmarks_[1].position(calibration_.mean, drift_) - expected.position(1)).norm(), 1e-8);
+  EXPECT_LT((solution.covariance(landmarks_[1]) - expected.covariance_of(expected.above_home(1))).norm(),
             1e-8);
 }
 
@@ -184,13 +221,13 @@ TEST_F(ArrowheadProblem, LeavingAnObjectOutIsNeverHavingSeenIt) {
       std::remove_if(looks_.begin(), looks_.end(), [](const Look& look) { return look.object == 2; }),
       looks_.end());
   const Dense expected = dense({0, 1});
-  EXPECT_LT((calibration_.mean - expected.solution.segment<CalibrationIndex::kSize>(4)).norm(), 1e-8);
+  EXPECT_LT((calibration_.mean - expected.calibration_mean()).norm(), 1e-8);
 }
 
 TEST_F(ArrowheadProblem, OneLookAtAnObjectSaysNothingOfTheCalibration) {
   make(6, 6, 2.0);
   solve();
-  const Calibration prior = solver_.prior(kOffsetSigma_m);
+  const Calibration prior = solver_.prior(kFlight);
   EXPECT_LT((calibration_.mean - prior.mean).norm(), 1e-9);
   for (int i = 0; i < CalibrationIndex::kSize; ++i) EXPECT_NEAR(calibration_.sigma(i), prior.sigma(i), 1e-6);
 }
@@ -210,7 +247,7 @@ TEST_F(ArrowheadProblem, FreezingANodeAtItsEstimateChangesNoEstimate) {
   make(4, 160, 40.0);
   solve();
   const CalibrationVector before = calibration_.mean;
-  const Eigen::Vector2d position = landmarks_[2].position(calibration_.mean, drift_);
+  const Point position = landmarks_[2].position(calibration_.mean, drift_);
   for (Landmark& landmark : landmarks_) landmark.freeze(drift_.begin(), drift_);
   drift_.freeze_oldest();
   solve();
@@ -230,8 +267,7 @@ TEST_F(ArrowheadProblem, ObservedWanderingIsTheExpectedSquareOfTheSteps) {
     const DriftNode& node = drift_.node(number);
     for (int axis = 0; axis < 2; ++axis) {
       Eigen::VectorXd step = Eigen::VectorXd::Zero(expected.solution.size());
-      const Eigen::Index at =
-          10 + CalibrationIndex::kSize + kNodeSize * static_cast<Eigen::Index>(number) + axis;
+      const Eigen::Index at = expected.node_column(number) + axis;
       step[at] = 1.0;
       step[at - kNodeSize] = -node.transition[axis];
       const double mean = step.dot(expected.solution), variance = step.dot(expected.covariance * step);
@@ -265,7 +301,9 @@ TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
   for (const double strength : {0.3, 1.0, 2.5}) {
     DriftTimeline drift(config);
     drift.cover(VehicleTime{}, kWanderSigma_m);  // the first node is at 0
-    std::vector<Landmark> landmarks(2 + 2 * kNodes / kNodesInView);
+    Landmark unseen;
+    unseen.add_prior(on_the_ground());
+    std::vector<Landmark> landmarks(2 + 2 * kNodes / kNodesInView, unseen);
     const double sigma_m = strength * kWanderSigma_m;
     const double kept = std::exp(-config.node_spacing_s / config.position_time_constant_s);
     Eigen::Vector2d before = sigma_m * drawn();
@@ -277,6 +315,7 @@ TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
         look.span = drift.cover(VehicleTime{from_seconds(time_s)}, kWanderSigma_m);
         const double weight = look.span.weight_of_second;
         look.value = kNoise_m * drawn() - (1.0 - weight) * before - weight * after;
+        look.slope.setZero();
         look.calibration_jacobian.setZero();
         look.calibration_jacobian.rightCols<2>().setIdentity();
         look.node_jacobian.setZero();
@@ -290,11 +329,11 @@ TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
     }
     std::vector<const Landmark*> seen;
     for (const Landmark& landmark : landmarks) {
-      if (landmark.A().trace() > 0.0) seen.push_back(&landmark);
+      if (landmark.A()(0, 0) > 0.0) seen.push_back(&landmark);
     }
     ArrowheadSolver solver(CalibrationPrior{}, kNodes);
     for (int round = 0; round < 10; ++round) {
-      const auto solution = solver.solve(seen, kOffsetSigma_m, drift);
+      const auto solution = solver.solve(seen, kFlight, drift);
       ASSERT_TRUE(solution);
       for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)
         drift.node(number).mean = solution->node(number);
@@ -308,21 +347,39 @@ TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
 TEST_F(ArrowheadProblem, AnObjectKnownFromASurveyAloneHasThatCovariance) {
   make(2, 40, 12.0);
   Landmark surveyed;
-  const Eigen::Matrix2d covariance = (Eigen::Matrix2d() << 0.04, 0.01, 0.01, 0.09).finished();
-  surveyed.add_prior({3.0, 4.0}, covariance.inverse());
+  const PointMatrix covariance =
+      (PointMatrix() << 0.04, 0.01, 0.0, 0.01, 0.09, 0.02, 0.0, 0.02, 0.16).finished();
+  const Point position(3.0, 4.0, 0.5);
+  surveyed.add_prior({covariance.inverse(), covariance.inverse() * position});
   const std::vector<const Landmark*> landmarks{&landmarks_[0], &landmarks_[1], &surveyed};
   const ArrowheadSolver::Solution solution = solve(solver_, landmarks);
-  EXPECT_LT((solution.covariance(surveyed) - covariance).norm(), 1e-12);
-  EXPECT_LT((surveyed.position(calibration_.mean, drift_) - Eigen::Vector2d(3.0, 4.0)).norm(), 1e-12);
-  const Eigen::Matrix2d difference = covariance + solution.covariance(landmarks_[0]);
+  // Of home, its height is known as well as the camera's is.
+  const double height_of_home = std::pow(calibration_.sigma(CalibrationIndex::kHeight), 2);
+  const PointMatrix above_home = Point(0.0, 0.0, height_of_home).asDiagonal().toDenseMatrix() + covariance;
+  EXPECT_LT((solution.covariance(surveyed) - above_home).norm(), 1e-12);
+  EXPECT_LT((surveyed.position(calibration_.mean, drift_) - position).norm(), 1e-12);
+  const Dense expected = dense({0, 1});
+  const Eigen::MatrixXd first = expected.above_home(0);
+  Eigen::MatrixXd level = first;
+  level(2, expected.calibration + CalibrationIndex::kHeight) = 0.0;
+  const PointMatrix difference = covariance + expected.covariance_of(level);
   EXPECT_LT((solution.covariance_of_difference(surveyed, landmarks_[0]) - difference).norm(), 1e-9);
 }
 
 TEST_F(ArrowheadProblem, WhatIsNoNumberHasNoSolution) {
   make(2, 40, 12.0);
   Landmark broken;
-  broken.add_prior({0.0, 0.0}, Eigen::Matrix2d::Constant(std::nan("")));
-  EXPECT_FALSE(solver_.solve({&landmarks_[0], &broken}, kOffsetSigma_m, drift_));
+  broken.add_prior({PointMatrix::Constant(std::nan("")), Point::Zero()});
+  EXPECT_FALSE(solver_.solve({&landmarks_[0], &broken}, kFlight, drift_));
+}
+
+/// The head's height is what the flight's prior says it is, whatever the prior of the camera said.
+TEST_F(ArrowheadProblem, AHeightThatIsKnownStaysWhereItIs) {
+  make(4, 100, 20.0);
+  const auto solution = solver_.solve(all(), {12.5, 0.0, 0.3}, drift_);
+  ASSERT_TRUE(solution);
+  EXPECT_NEAR(solution->calibration().height_m(), 12.5, 1e-6);
+  EXPECT_LT(solution->calibration().sigma(CalibrationIndex::kHeight), 1e-6);
 }
 
 TEST(ArrowheadSolver, StatesThePriorInRadiansMetresAndSeconds) {
@@ -331,18 +388,16 @@ TEST(ArrowheadSolver, StatesThePriorInRadiansMetresAndSeconds) {
   prior.boresight_y_deg = -2.0;
   prior.boresight_z_deg = 3.0;
   prior.latency_s = 0.1;
-  prior.height_m = -0.4;
   prior.sigma_boresight_x_deg = 4.0;
   prior.sigma_boresight_y_deg = 5.0;
   prior.sigma_boresight_z_deg = 0.0;
   prior.sigma_latency_s = 0.2;
-  prior.sigma_height_m = 0.6;
   const ArrowheadSolver solver(prior, 10);
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   CalibrationVector mean, sigma;
   mean << kDegree, -2.0 * kDegree, 3.0 * kDegree, 0.1, -0.4, 0.0, 0.0;
   sigma << 4.0 * kDegree, 5.0 * kDegree, 0.0, 0.2, 0.6, 0.7, 0.7;
-  const Calibration stated = solver.prior(0.7);
+  const Calibration stated = solver.prior({-0.4, 0.6, 0.7});
   EXPECT_LT((stated.mean - mean).norm(), 1e-12);
   for (int i = 0; i < CalibrationIndex::kSize; ++i) {
     EXPECT_NEAR(stated.sigma(i), sigma[i], 1e-8);

@@ -24,7 +24,7 @@ Eigen::Vector2d aim_point(const Rigid3d& enu_from_camera) {
 
 TEST(Calibration, NoneLeavesAPoseAsItIs) {
   Rigid3d pose = looking_down();
-  Calibration{}.apply_to(pose);
+  Calibration{}.turn(pose);
   EXPECT_EQ(pose.rotation.coeffs(), looking_down().rotation.coeffs());
   EXPECT_EQ(pose.translation, looking_down().translation);
 }
@@ -38,16 +38,16 @@ TEST(Calibration, TurnsACameraAboutItsOwnAxes) {
   // Right-handed: about its right axis its view rises to the image's top, the north; about its down axis it
   // swings to its right, the east.
   Rigid3d pose = looking_down();
-  about_x.apply_to(pose);
+  about_x.turn(pose);
   EXPECT_NEAR(aim_point(pose).x(), 3.0, 1e-12);
   EXPECT_NEAR(aim_point(pose).y(), 4.0 + 20.0 * std::tan(kTurn_rad), 1e-12);
   pose = looking_down();
-  about_y.apply_to(pose);
+  about_y.turn(pose);
   EXPECT_NEAR(aim_point(pose).x(), 3.0 + 20.0 * std::tan(kTurn_rad), 1e-12);
   EXPECT_NEAR(aim_point(pose).y(), 4.0, 1e-12);
   // About its line of sight its right axis turns to the image's bottom, the south.
   pose = looking_down();
-  about_z.apply_to(pose);
+  about_z.turn(pose);
   const Eigen::Vector3d right = pose.rotation * Eigen::Vector3d::UnitX();
   EXPECT_LT((right - Eigen::Vector3d(std::cos(kTurn_rad), -std::sin(kTurn_rad), 0.0)).norm(), 1e-12);
 }
@@ -58,7 +58,7 @@ TEST(Calibration, TurnsAboutAllAxesAtOnceByTheLengthOfTheVector) {
   const Eigen::Vector3d turn(0.2, -0.3, 0.6);
   calibration.mean.segment<3>(Index::kBoresight) = turn;
   Rigid3d pose = looking_down();
-  calibration.apply_to(pose);
+  calibration.turn(pose);
   const double angle = std::sqrt(0.04 + 0.09 + 0.36);
   const Eigen::Vector3d axis = turn / angle;
   for (const Eigen::Vector3d& ray : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.3, -0.2, 1)}) {
@@ -72,12 +72,23 @@ TEST(Calibration, TurnsAboutAllAxesAtOnceByTheLengthOfTheVector) {
   EXPECT_NEAR(pose.rotation.norm(), 1.0, 1e-15);
 }
 
-TEST(Calibration, LiftsACameraAndMovesItNoOtherWay) {
+TEST(Calibration, TurnsACameraAndMovesItNowhere) {
   Calibration calibration;
-  calibration.mean << 0.0, 0.0, 0.0, 0.5, 1.25, 7.0, -8.0;
+  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 7.0, -8.0;
   Rigid3d pose = looking_down();
-  calibration.apply_to(pose);
-  EXPECT_EQ(pose.translation, Eigen::Vector3d(3.0, 4.0, 21.25));
+  calibration.turn(pose);
+  EXPECT_EQ(pose.translation, looking_down().translation);
+  EXPECT_GT(pose.rotation.angularDistance(looking_down().rotation), 0.3);
+}
+
+TEST(Calibration, TurnsBackByItsOpposite) {
+  Calibration calibration, opposite;
+  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 7.0, -8.0;
+  opposite.mean = -calibration.mean;
+  Rigid3d pose = looking_down();
+  calibration.turn(pose);
+  opposite.turn(pose);
+  EXPECT_LT(pose.rotation.angularDistance(looking_down().rotation), 1e-12);
 }
 
 TEST(Calibration, NamesItsComponents) {

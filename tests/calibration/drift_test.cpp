@@ -21,6 +21,39 @@ DriftConfig config_with(double spacing_s, int max_nodes = 36) {
   return config;
 }
 
+constexpr int kUp = 2;
+
+/// 1-sigma of a node's component, in the state in which it wanders for ever.
+double sigma_of(const DriftConfig& config, int i) {
+  if (i < 2) return kSigmaPosition_m;
+  return i == kUp ? config.sigma_up_m : config.sigma_yaw_deg * kPi / 180.0;
+}
+
+double time_constant_of(const DriftConfig& config, int i) {
+  if (i < 2) return config.position_time_constant_s;
+  return i == kUp ? config.up_time_constant_s : config.yaw_time_constant_s;
+}
+
+/// What five seconds leave of each component.
+NodeVector kept_of(const DriftConfig& config) {
+  NodeVector kept;
+  for (int i = 0; i < kNodeSize; ++i) kept[i] = std::exp(-5.0 / time_constant_of(config, i));
+  return kept;
+}
+
+/// All components differ.
+NodeVector ramp(double from, double to) {
+  return NodeVector::LinSpaced(kNodeSize, from, to);
+}
+
+/// The components' time constants and sigmas all differ.
+DriftConfig distinct_config() {
+  DriftConfig config = config_with(5.0);
+  config.up_time_constant_s = 17.0;
+  config.sigma_up_m = 0.3;
+  return config;
+}
+
 NodeSpan cover(DriftTimeline& drift, double time_s) {
   return drift.cover(VehicleTime{from_seconds(time_s)}, kSigmaPosition_m);
 }
@@ -46,13 +79,12 @@ Eigen::MatrixXd prior_covariance_of(const DriftTimeline& drift, int i) {
 
 /// A stationary first-order Gauss-Markov process: sigma^2 exp(-|t1 - t2| / time constant), at any spacing.
 TEST(DriftTimeline, WandersAsAStationaryGaussMarkovProcess) {
-  const DriftConfig config = config_with(4.0);
+  DriftConfig config = distinct_config();
+  config.node_spacing_s = 4.0;
   DriftTimeline drift(config);
   for (const double time_s : {10.0, 13.0, 15.0, 21.0, 60.0, 63.0, 66.0}) cover(drift, time_s);
-  const double sigma_yaw = config.sigma_yaw_deg * kPi / 180.0;
   for (int i = 0; i < kNodeSize; ++i) {
-    const double sigma = i < 2 ? kSigmaPosition_m : sigma_yaw;
-    const double constant_s = i < 2 ? config.position_time_constant_s : config.yaw_time_constant_s;
+    const double sigma = sigma_of(config, i), constant_s = time_constant_of(config, i);
     const Eigen::MatrixXd covariance = prior_covariance_of(drift, i);
     for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
       for (Eigen::Index b = 0; b < covariance.cols(); ++b) {
@@ -65,7 +97,7 @@ TEST(DriftTimeline, WandersAsAStationaryGaussMarkovProcess) {
   }
 }
 
-TEST(DriftTimeline, ScalesTheWanderingOfThePositionAndNotOfTheYaw) {
+TEST(DriftTimeline, ScalesTheWanderingOfThePositionAndNothingElse) {
   DriftTimeline drift{DriftConfig{}}, scaled{DriftConfig{}};
   EXPECT_EQ(drift.position_scale(), 1.0);
   for (DriftTimeline* one : {&drift, &scaled}) {
@@ -97,11 +129,11 @@ TEST(DriftTimeline, CoversEveryTimeByTheTwoNodesAroundIt) {
 TEST(DriftTimeline, IsAStraightLineBetweenNodes) {
   DriftTimeline drift(config_with(5.0));
   const NodeSpan span = cover(drift, 10.0);
-  drift.node(span.first).mean = NodeVector(1.0, -2.0, 0.1);
-  drift.node(span.first + 1).mean = NodeVector(2.0, 6.0, -0.3);
-  EXPECT_LT((drift.at(cover(drift, 10.0)) - NodeVector(1.0, -2.0, 0.1)).norm(), 1e-12);
-  EXPECT_LT((drift.at(cover(drift, 11.25)) - NodeVector(1.25, 0.0, 0.0)).norm(), 1e-12);
-  EXPECT_LT((drift.at(cover(drift, 15.0)) - NodeVector(2.0, 6.0, -0.3)).norm(), 1e-12);
+  drift.node(span.first).mean = ramp(1.0, -2.0);
+  drift.node(span.first + 1).mean = ramp(2.0, 6.0);
+  EXPECT_LT((drift.at(cover(drift, 10.0)) - ramp(1.0, -2.0)).norm(), 1e-12);
+  EXPECT_LT((drift.at(cover(drift, 11.25)) - ramp(1.25, 0.0)).norm(), 1e-12);
+  EXPECT_LT((drift.at(cover(drift, 15.0)) - ramp(2.0, 6.0)).norm(), 1e-12);
 }
 
 TEST(DriftTimeline, HasNodesAtTheSpacingAndNoneForAPause) {
@@ -122,48 +154,46 @@ TEST(DriftTimeline, ATimeJustAfterTheLastNodeContinuesTheGrid) {
 }
 
 TEST(DriftTimeline, ExpectsOfANewNodeWhatTheLastOneLeaves) {
-  DriftConfig config = config_with(5.0);
+  const DriftConfig config = distinct_config();
   DriftTimeline drift(config);
   cover(drift, 0.0);
-  drift.node(1).mean = NodeVector(2.0, -4.0, 0.1);
+  drift.node(1).mean = ramp(2.0, -4.0);
   cover(drift, 6.0);
-  const double position = std::exp(-5.0 / config.position_time_constant_s);
-  const double yaw = std::exp(-5.0 / config.yaw_time_constant_s);
-  EXPECT_LT((drift.node(2).mean - NodeVector(2.0 * position, -4.0 * position, 0.1 * yaw)).norm(), 1e-12);
+  EXPECT_LT((drift.node(2).mean - kept_of(config).cwiseProduct(ramp(2.0, -4.0))).norm(), 1e-12);
   EXPECT_EQ(drift.node(2).prior_mean, NodeVector(NodeVector::Zero()));
 }
 
 TEST(DriftTimeline, BeginsAnewWhenTheClockRunsBack) {
   DriftTimeline drift{DriftConfig{}};
   cover(drift, 100.0);
-  drift.node(1).mean = NodeVector(1.0, 1.0, 1.0);
+  drift.node(1).mean = NodeVector::Ones();
   const NodeSpan span = cover(drift, 3.0);
   EXPECT_EQ(drift.node(span.first).transition, NodeVector(NodeVector::Zero()));
   EXPECT_EQ(drift.node(span.first).mean, NodeVector(NodeVector::Zero()));
-  EXPECT_NEAR(1.0 / drift.node(span.first).information.x(), kSigmaPosition_m * kSigmaPosition_m, 1e-12);
+  for (int i = 0; i < kNodeSize; ++i)
+    EXPECT_NEAR(1.0 / drift.node(span.first).information[i], std::pow(sigma_of(DriftConfig{}, i), 2), 1e-12);
   EXPECT_EQ(time_of(drift, span.first), 3.0);
   EXPECT_EQ(drift.size(), 4);
 }
 
 /// The node after a frozen one has the distribution of the process given the frozen value.
 TEST(DriftTimeline, GoesOnFromTheValueThatANodeIsFrozenAt) {
-  const DriftConfig config = config_with(5.0);
+  const DriftConfig config = distinct_config();
   DriftTimeline drift(config);
   cover(drift, 0.0);
   cover(drift, 6.0);
-  const NodeVector frozen(0.7, -0.2, 0.01);
+  const NodeVector frozen = ramp(0.7, -0.2);
   drift.node(0).mean = frozen;
   drift.freeze_oldest();
   EXPECT_EQ(drift.begin(), 1U);
   EXPECT_EQ(drift.size(), 2);
-  const double position = std::exp(-5.0 / config.position_time_constant_s);
-  const double yaw = std::exp(-5.0 / config.yaw_time_constant_s);
-  EXPECT_LT((drift.node(1).prior_mean - NodeVector(position, position, yaw).cwiseProduct(frozen)).norm(),
-            1e-12);
-  EXPECT_NEAR(1.0 / drift.information(1).x(),
-              kSigmaPosition_m * kSigmaPosition_m * (1.0 - position * position), 1e-12);
-  const Eigen::MatrixXd covariance = prior_covariance_of(drift, 0);
-  EXPECT_NEAR(covariance(0, 0), kSigmaPosition_m * kSigmaPosition_m * (1.0 - position * position), 1e-12);
+  const NodeVector kept = kept_of(config);
+  EXPECT_LT((drift.node(1).prior_mean - kept.cwiseProduct(frozen)).norm(), 1e-12);
+  for (int i = 0; i < kNodeSize; ++i) {
+    const double variance = std::pow(sigma_of(config, i), 2) * (1.0 - kept[i] * kept[i]);
+    EXPECT_NEAR(1.0 / drift.information(1)[i], variance, 1e-12);
+    EXPECT_NEAR(prior_covariance_of(drift, i)(0, 0), variance, 1e-12);
+  }
 }
 
 TEST(DriftTimeline, KeepsAsManyNodesAsItMayWhateverTheirNumbers) {

@@ -14,6 +14,7 @@ namespace geoloc {
 namespace {
 
 constexpr int kBlock = 3;
+constexpr int kColumns = EnvelopeCholesky::Columns::ColsAtCompileTime;
 
 /// Positive definite, made of blocks of which most are zero, and the same as it is built up in `sparse`.
 Eigen::MatrixXd random_matrix(int blocks, std::mt19937& random, EnvelopeCholesky& sparse) {
@@ -54,7 +55,7 @@ TEST(EnvelopeCholesky, SolvesAsADenseFactorDoes) {
     EXPECT_LT((x - expected).norm(), 1e-9 * (1.0 + expected.norm()));
 
     const Eigen::Index first = matrix.rows() / 2;
-    EnvelopeCholesky::TwoColumns columns = EnvelopeCholesky::TwoColumns::Zero(matrix.rows(), 2);
+    EnvelopeCholesky::Columns columns = EnvelopeCholesky::Columns::Zero(matrix.rows(), kColumns);
     columns.bottomRows(matrix.rows() - first).setRandom();
     const Eigen::MatrixXd expected_columns = dense.matrixL().solve(Eigen::MatrixXd(columns));
     sparse.solve_lower(columns, first);

@@ -17,8 +17,8 @@ class LandmarkSums : public ::testing::Test {
   using NodeRow = Eigen::Matrix<double, 2, kNodeSize>;
 
   struct Prior {
-    Eigen::Vector2d position;
-    Eigen::Matrix2d information;
+    Point position;
+    PointMatrix information;
   };
 
   struct Told {
@@ -34,17 +34,19 @@ class LandmarkSums : public ::testing::Test {
     return Matrix::NullaryExpr([this] { return draw(); });
   }
 
-  Eigen::Matrix2d drawn_information() {
-    const Eigen::Matrix2d root = drawn<Eigen::Matrix2d>();
-    return root * root.transpose() + 0.1 * Eigen::Matrix2d::Identity();
+  template <class Matrix>
+  Matrix drawn_information() {
+    const Matrix root = drawn<Matrix>();
+    return root * root.transpose() + 0.1 * Matrix::Identity();
   }
 
   void look(Told& told, double time_s) {
     LandmarkObservation look;
     look.value = Eigen::Vector2d(5.0, -3.0) + drawn<Eigen::Vector2d>();
-    look.calibration_jacobian = drawn<Landmark::CalibrationRow>();
+    look.slope = drawn<Eigen::Vector2d>();
+    look.calibration_jacobian = drawn<Eigen::Matrix<double, 2, CalibrationIndex::kSize>>();
     look.node_jacobian = drawn<NodeRow>();
-    look.information = drawn_information();
+    look.information = drawn_information<Eigen::Matrix2d>();
     look.span = drift_.cover(VehicleTime{from_seconds(time_s)}, 0.5);
     for (const std::uint32_t number : {look.span.first, look.span.first + 1}) {
       if (known_up_to_ > number) continue;
@@ -59,10 +61,14 @@ class LandmarkSums : public ::testing::Test {
     for (int i = 0; i < looks; ++i) look(told, begin_s + (end_s - begin_s) * i / looks);
   }
 
-  void prior(Told& told, const Eigen::Vector2d& position) {
-    told.priors.push_back({position, drawn_information()});
-    told.landmark.add_prior(position, told.priors.back().information);
+  void prior(Told& told, const Point& position, const PointMatrix& information) {
+    told.priors.push_back({position, information});
+    told.landmark.add_prior({information, information * position});
   }
+  void prior(Told& told, const Point& position) { prior(told, position, drawn_information<PointMatrix>()); }
+
+  /// Nothing but the height is known, in part.
+  void ground(Told& told) { prior(told, {0.0, 0.0, -1.5}, Point(0.0, 0.0, 0.25).asDiagonal()); }
 
   using Nodes = std::map<std::uint32_t, NodeVector>;
 
@@ -72,16 +78,20 @@ class LandmarkSums : public ::testing::Test {
     return nodes;
   }
 
+  /// A point that is higher by one appears moved by the slope against it.
+  static Eigen::Vector2d shown(const LandmarkObservation& look, const Point& x) {
+    return {x[0] - look.slope[0] * x[2], x[1] - look.slope[1] * x[2]};
+  }
+
   /// Sum of the squared residuals, look by look: by the definition of a look.
-  static double cost(const Told& told, const Eigen::Vector2d& x, const CalibrationVector& c,
-                     const Nodes& nodes) {
+  static double cost(const Told& told, const Point& x, const CalibrationVector& c, const Nodes& nodes) {
     double sum = 0.0;
     for (const LandmarkObservation& look : told.looks) {
       const double second = look.span.weight_of_second;
       const NodeVector drift =
           (1.0 - second) * nodes.at(look.span.first) + second * nodes.at(look.span.first + 1);
       const Eigen::Vector2d residual =
-          look.value + look.calibration_jacobian * c + look.node_jacobian * drift - x;
+          look.value + look.calibration_jacobian * c + look.node_jacobian * drift - shown(look, x);
       sum += residual.dot(look.information * residual);
     }
     for (const Prior& prior : told.priors)
@@ -90,9 +100,8 @@ class LandmarkSums : public ::testing::Test {
   }
 
   /// The same from the sums, but for a constant.
-  static double cost(const Landmark& sums, const Eigen::Vector2d& x, const CalibrationVector& c,
-                     const Nodes& nodes) {
-    Eigen::Vector2d linear = sums.b() + sums.B() * c;
+  static double cost(const Landmark& sums, const Point& x, const CalibrationVector& c, const Nodes& nodes) {
+    Point linear = sums.b() + sums.B() * c;
     double cost = c.dot(sums.C() * c) - 2.0 * sums.g().dot(c);
     for (const Landmark::NodeTerms& terms : sums) {
       const NodeVector& d = nodes.at(terms.number);
@@ -108,7 +117,7 @@ class LandmarkSums : public ::testing::Test {
   void expect_same_costs(const Told& told, const Nodes& frozen = {}) {
     double offset = 0.0;
     for (int trial = 0; trial < 10; ++trial) {
-      const Eigen::Vector2d x = 3.0 * drawn<Eigen::Vector2d>();
+      const Point x = 3.0 * drawn<Point>();
       const CalibrationVector c = drawn<CalibrationVector>();
       Nodes nodes = drawn_nodes();
       for (const auto& [number, value] : frozen) nodes[number] = value;
@@ -120,24 +129,28 @@ class LandmarkSums : public ::testing::Test {
   }
 
   /// Weighted least squares over all looks with everything else known, by QR.
-  static Eigen::Vector2d best_position(const Told& told, const CalibrationVector& c, const Nodes& nodes) {
-    const auto looks = static_cast<Eigen::Index>(told.looks.size() + told.priors.size());
-    Eigen::MatrixXd rows(2 * looks, 2);
-    Eigen::VectorXd values(2 * looks);
+  static Point best_position(const Told& told, const CalibrationVector& c, const Nodes& nodes) {
+    const auto size = static_cast<Eigen::Index>(2 * told.looks.size() + 3 * told.priors.size());
+    Eigen::MatrixXd rows(size, 3);
+    Eigen::VectorXd values(size);
     Eigen::Index at = 0;
-    const auto add = [&](const Eigen::Matrix2d& information, const Eigen::Vector2d& value) {
-      const Eigen::Matrix2d root = information.llt().matrixU();
-      rows.middleRows<2>(at) = root;
-      values.segment<2>(at) = root * value;
-      at += 2;
+    const auto add = [&](const Eigen::MatrixXd& information, const Eigen::MatrixXd& by_point,
+                         const Eigen::VectorXd& value) {
+      const Eigen::MatrixXd root = information.llt().matrixU();
+      rows.middleRows(at, value.size()) = root * by_point;
+      values.segment(at, value.size()) = root * value;
+      at += value.size();
     };
     for (const LandmarkObservation& look : told.looks) {
       const double second = look.span.weight_of_second;
-      add(look.information, look.value + look.calibration_jacobian * c +
-                                look.node_jacobian * ((1.0 - second) * nodes.at(look.span.first) +
-                                                      second * nodes.at(look.span.first + 1)));
+      Eigen::MatrixXd by_point(2, 3);
+      by_point << 1.0, 0.0, -look.slope[0], 0.0, 1.0, -look.slope[1];
+      add(look.information, by_point,
+          look.value + look.calibration_jacobian * c +
+              look.node_jacobian *
+                  ((1.0 - second) * nodes.at(look.span.first) + second * nodes.at(look.span.first + 1)));
     }
-    for (const Prior& prior : told.priors) add(prior.information, prior.position);
+    for (const Prior& prior : told.priors) add(prior.information, PointMatrix::Identity(), prior.position);
     return rows.colPivHouseholderQr().solve(values);
   }
 
@@ -171,11 +184,42 @@ TEST_F(LandmarkSums, SayWhatLooksAfterAPauseSay) {
 
 TEST_F(LandmarkSums, SayWhatASurveySays) {
   Told told;
-  prior(told, {5.2, -2.9});
+  prior(told, {5.2, -2.9, 0.4});
   expect_same_costs(told);
   look_many(told, 0.0, 12.0, 10);
-  prior(told, {4.8, -3.1});
+  prior(told, {4.8, -3.1, -0.7});
   expect_same_costs(told);
+}
+
+/// What was added twice is taken out once: two landmarks on one ground become one that stands on it once.
+TEST_F(LandmarkSums, AreRidOfAPriorByItsOpposite) {
+  Told one, other;
+  look_many(one, 0.0, 12.0, 10);
+  look_many(other, 8.0, 26.0, 12);
+  ground(one);
+  ground(other);
+  Told both = one;
+  both.looks.insert(both.looks.end(), other.looks.begin(), other.looks.end());
+  both.landmark.merge(other.landmark, drift_);
+  const Prior& ground = both.priors.back();
+  both.landmark.add_prior(-PointInformation{ground.information, ground.information * ground.position});
+  expect_same_costs(both);
+}
+
+/// From one side alone, only the ground tells how high the object is, and so how far.
+TEST_F(LandmarkSums, OfOneLookOnTheGroundGiveThePlaceWhereItsRayMeetsTheGround) {
+  Told told;
+  look(told, 1.0);
+  ground(told);
+  const LandmarkObservation& look = told.looks.front();
+  const CalibrationVector calibration = drawn<CalibrationVector>();
+  const NodeVector drift = (1.0 - look.span.weight_of_second) * means().at(look.span.first) +
+                           look.span.weight_of_second * means().at(look.span.first + 1);
+  const Eigen::Vector2d level =
+      look.value + look.calibration_jacobian * calibration + look.node_jacobian * drift;
+  const Point position = told.landmark.position(calibration, drift_);
+  EXPECT_NEAR(position.z(), -1.5, 1e-9);
+  EXPECT_LT((position.head<2>() - (level - 1.5 * look.slope)).norm(), 1e-9);
 }
 
 TEST_F(LandmarkSums, OfTwoLandmarksSayWhatTheLooksOfBothSay) {
@@ -183,7 +227,7 @@ TEST_F(LandmarkSums, OfTwoLandmarksSayWhatTheLooksOfBothSay) {
   look_many(one, 0.0, 12.0, 10);
   look_many(other, 8.0, 26.0, 12);
   look_many(one, 22.0, 38.0, 10);
-  prior(other, {5.0, -3.0});
+  prior(other, {5.0, -3.0, 1.0});
   Told both = one;
   both.looks.insert(both.looks.end(), other.looks.begin(), other.looks.end());
   both.priors = other.priors;
@@ -242,9 +286,9 @@ TEST_F(LandmarkSums, KeepTheirNodesInOrder) {
 TEST_F(LandmarkSums, GiveThePositionOfDenseLeastSquares) {
   Told told;
   look_many(told, 0.0, 42.0, 30);
-  prior(told, {6.0, -4.0});
+  prior(told, {6.0, -4.0, 2.0});
   const CalibrationVector calibration = drawn<CalibrationVector>();
-  const Eigen::Vector2d expected = best_position(told, calibration, means());
+  const Point expected = best_position(told, calibration, means());
   EXPECT_LT((told.landmark.position(calibration, drift_) - expected).norm(), 1e-9);
   told.landmark.freeze(0, drift_);
   EXPECT_LT((told.landmark.position(calibration, drift_) - expected).norm(), 1e-9);

@@ -21,12 +21,13 @@ struct Regime {
   Eigen::Vector2d pixel;
 };
 
+/// Where the drift's yaw stands.
+constexpr int kYaw = 3;
+
 /// The fix of a pixel when calibration and drift are as given: everything recomputed, nothing linear.
 class ExactFix {
  public:
-  explicit ExactFix(const Regime& regime) : regime_(regime), projector_({}, CameraIntrinsics{}) {
-    mount_.pitch_deg = regime.camera_pitch_deg;
-  }
+  explicit ExactFix(const Regime& regime) : regime_(regime) { mount_.pitch_deg = regime.camera_pitch_deg; }
 
   FrameView view(const CalibrationVector& calibration, const NodeVector& drift) const {
     const double t = -calibration[CalibrationIndex::kLatency];
@@ -34,24 +35,27 @@ class ExactFix {
     const Eigen::Vector3d rate = regime_.turn_rate_deg * kRadPerDeg;
     Eigen::Quaterniond turned = Eigen::Quaterniond::Identity();
     if (rate.norm() > 0) turned = Eigen::AngleAxisd(rate.norm() * t, rate.normalized());
-    const Eigen::Quaterniond true_north(Eigen::AngleAxisd(drift[2], Eigen::Vector3d::UnitZ()));
+    const Eigen::Quaterniond true_north(Eigen::AngleAxisd(drift[kYaw], Eigen::Vector3d::UnitZ()));
     FrameView view;
     view.vehicle.enu_from_body.rotation =
         enu_from_ned() * true_north *
         ned_from_body({a.roll_rad * kRadPerDeg, a.pitch_rad * kRadPerDeg, a.yaw_rad * kRadPerDeg}) * turned;
     view.vehicle.enu_from_body.translation =
         Eigen::Vector3d(5, -3, regime_.height_m) + t * regime_.velocity_in_enu;
-    view.vehicle.enu_from_body.translation.head<2>() +=
-        drift.head<2>() + calibration.segment<2>(CalibrationIndex::kOffset);
+    view.vehicle.enu_from_body.translation += drift.head<3>();
+    view.vehicle.enu_from_body.translation.head<2>() += calibration.segment<2>(CalibrationIndex::kOffset);
     view.vehicle.velocity_in_enu = regime_.velocity_in_enu;
     view.vehicle.angular_velocity_in_body = rate;
     view.enu_from_camera = enu_from_camera(view.vehicle, mount_, CameraOrientation::kComposed);
-    Calibration{calibration, CalibrationMatrix::Zero()}.apply_to(view.enu_from_camera);
+    Calibration{calibration, CalibrationMatrix::Zero()}.turn(view.enu_from_camera);
+    view.enu_from_camera.translation.z() += calibration[CalibrationIndex::kHeight];
     return view;
   }
 
-  GroundFix fix(const FrameView& view) const {
-    return *projector_.project(regime_.pixel, view.enu_from_camera);
+  GroundFix fix(const FrameView& view, double ground_m = 0.0) const {
+    ProjectorConfig config;
+    config.ground_height_above_home_m = ground_m;
+    return *Projector(config, CameraIntrinsics{}).project(regime_.pixel, view.enu_from_camera);
   }
 
   Eigen::Vector2d position(const CalibrationVector& calibration, const NodeVector& drift) const {
@@ -61,7 +65,6 @@ class ExactFix {
  private:
   Regime regime_;
   CameraMount mount_;
-  Projector projector_;
 };
 
 class JacobianLaws : public ::testing::TestWithParam<Regime> {};
@@ -87,6 +90,22 @@ TEST_P(JacobianLaws, AreTheNumericDerivatives) {
         (exact.position(calibration, drift + moved) - exact.position(calibration, drift - moved)) /
         (2 * kStep);
     EXPECT_LT((slope - jacobians.node.col(i)).norm(), 1e-5 * (1.0 + slope.norm())) << "drift " << i;
+  }
+  // Deeper ground is a higher camera.
+  const Eigen::Vector2d by_depth =
+      (exact.fix(view, -kStep).position_in_enu - exact.fix(view, kStep).position_in_enu) / (2 * kStep);
+  EXPECT_LT((by_depth - jacobians.height).norm(), 1e-5 * (1.0 + by_depth.norm()));
+}
+
+/// The ray by itself: where it meets the level that is a metre up.
+TEST_P(JacobianLaws, AreStraightInTheHeight) {
+  const ExactFix exact(GetParam());
+  const FrameView view = exact.view(CalibrationVector::Zero(), NodeVector::Zero());
+  const GroundFix fix = exact.fix(view);
+  const FixJacobians jacobians = jacobians_of(fix, view, view.enu_from_camera.translation.z());
+  for (const double up_m : {-5.0, 1.0, 8.0}) {
+    const Eigen::Vector2d moved = exact.fix(view, up_m).position_in_enu - fix.position_in_enu;
+    EXPECT_LT((moved + up_m * jacobians.height).norm(), 1e-9);
   }
 }
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <utility>
 
 namespace geoloc {
 namespace {
@@ -40,6 +42,7 @@ class SharedErrors : public ::testing::Test {
       fill(look.calibration_jacobian);
       fill(look.node_jacobian);
       fill(look.value);
+      fill(look.slope);
       look.information = 4.0 * Eigen::Matrix2d::Identity();
       landmarks_[i % 2].add(look, estimate_.drift);
     }
@@ -47,17 +50,19 @@ class SharedErrors : public ::testing::Test {
   }
 
   ArrowheadSolver::Solution solution() {
-    return *solver_.solve({&landmarks_[0], &landmarks_[1]}, estimate_.offset_sigma_m(), estimate_.drift);
+    return *solver_.solve({&landmarks_[0], &landmarks_[1]}, prior_, estimate_.drift);
   }
 
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
   PositionAccuracy accuracy_{1.0, 0.2, 0.02};
-  SharedErrorEstimate estimate_{accuracy_, DriftConfig{}, solver_};
+  HeightPrior height_prior_{0.4, 1.5};
+  SharedErrorEstimate estimate_{accuracy_, height_prior_, DriftConfig{}, solver_};
+  FlightPrior prior_ = estimate_.prior();  // of every solution, so that all are the same
   Landmark landmarks_[2];
 };
 
 TEST_F(SharedErrors, BeginAsThePrior) {
-  const Calibration prior = solver_.prior(accuracy_.offset_sigma_m(1.0));
+  const Calibration prior = solver_.prior({0.4, height_prior_.sigma_at(0.4), accuracy_.offset_sigma_m(1.0)});
   EXPECT_EQ(estimate_.calibration.mean, prior.mean);
   EXPECT_EQ(estimate_.calibration.covariance, prior.covariance);
   EXPECT_EQ(estimate_.offset_sigma_m(), accuracy_.offset_sigma_m(1.0));
@@ -68,7 +73,7 @@ TEST(FrozenSharedErrors, HaveARootBesideTheOthers) {
   CalibrationPrior prior;
   prior.sigma_boresight_y_deg = 0.0;
   const ArrowheadSolver solver(prior, DriftConfig{}.max_nodes);
-  const SharedErrorEstimate estimate({1.0, 0.2, 0.02}, DriftConfig{}, solver);
+  const SharedErrorEstimate estimate({1.0, 0.2, 0.02}, {0.0, 2.0}, DriftConfig{}, solver);
   EXPECT_NEAR(estimate.calibration_root(Index::kBoresight + 1, Index::kBoresight + 1), 0.0, 1e-8);
   for (const int free : {Index::kBoresight, Index::kBoresight + 2, Index::kLatency, Index::kHeight})
     EXPECT_NEAR(estimate.calibration_root(free, free), estimate.calibration.sigma(free), 1e-9);
@@ -92,13 +97,13 @@ TEST_F(SharedErrors, AreLessWhereThePositionWandersLess) {
 TEST_F(SharedErrors, WhitenJacobians) {
   for (const bool is_learnt : {false, true}) {
     if (is_learnt) learn();
-    SharedError::CalibrationRow by_calibration;
-    by_calibration << 1, -2, 3, 0.5, -1, 0.3, 2, -1, 4, 1.5;
-    Eigen::Matrix<double, 2, kNodeSize> by_drift;
-    by_drift << 1, 0, -2, 0, 1, 3;
-    const SharedError::Row row = estimate_.whitened(by_calibration, by_drift);
+    Eigen::Matrix<double, 3, SharedError::kCalibrationSize> by_calibration;
+    by_calibration << 1, -2, 3, 0.5, -1, 0.3, 2, -1, 4, 1.5, -0.7, 0.2, 1, -3, 2;
+    Eigen::Matrix<double, 3, kNodeSize> by_drift;
+    for (int i = 0; i < kNodeSize; ++i) by_drift.col(i) << 1.0 - i, 0.3 * i, std::cos(i);
+    const SharedError::PointRow row = estimate_.whitened<3>(by_calibration, by_drift);
     const NodeMatrix node = is_learnt ? solution().newest_node_covariance() : NodeMatrix(NodeMatrix::Zero());
-    const Eigen::Matrix2d expected =
+    const Eigen::Matrix3d expected =
         by_calibration * estimate_.calibration.covariance.topLeftCorner<5, 5>() * by_calibration.transpose() +
         by_drift * node * by_drift.transpose();
     EXPECT_LT((row * row.transpose() - expected).norm(), 1e-12);
@@ -110,9 +115,112 @@ TEST_F(SharedErrors, ThatAreExactlyKnownAreNoReasonToFail) {
   CalibrationPrior prior;
   prior.sigma_latency_s = prior.sigma_height_m = 0.0;
   const ArrowheadSolver solver(prior, 10);
-  const SharedErrorEstimate estimate(accuracy_, DriftConfig{}, solver);
+  SharedErrorEstimate estimate(accuracy_, {3.0, 0.0}, DriftConfig{}, solver);
   EXPECT_TRUE(estimate.calibration_root.allFinite());
   EXPECT_TRUE(estimate.drift_root.allFinite());
+  EXPECT_NEAR(estimate.lift_m(30.0), 3.0, 1e-9);
+  estimate.bound_height(30.0);
+  EXPECT_TRUE(estimate.calibration_root.allFinite());
+}
+
+/// What the next solution is told: of the height, what the heavy tails say where it is believed to be now.
+TEST_F(SharedErrors, TellTheNextSolutionWhatToExpect) {
+  for (const double height_m : {0.4, 1.9, -30.0}) {
+    estimate_.calibration.mean[Index::kHeight] = height_m;
+    estimate_.drift.set_position_scale(0.6);
+    const FlightPrior prior = estimate_.prior();
+    EXPECT_EQ(prior.height_m, 0.4);
+    EXPECT_NEAR(prior.sigma_height_m, std::sqrt((1.5 * 1.5 + std::pow(height_m - 0.4, 2)) / 2.0), 1e-12);
+    EXPECT_NEAR(prior.sigma_offset_m, accuracy_.offset_sigma_m(0.6), 1e-12);
+  }
+}
+
+/// An object's height above home is its height above the level ground less the camera's.
+TEST_F(SharedErrors, TellHeightsAboveHomeFromThoseAboveTheLevelGround) {
+  learn();
+  const Eigen::Matrix<double, 3, SharedError::kCalibrationSize> by_calibration =
+      Eigen::Matrix<double, 3, SharedError::kCalibrationSize>::Random();
+  const Eigen::Matrix<double, 3, kNodeSize> by_drift = Eigen::Matrix<double, 3, kNodeSize>::Random();
+  const SharedError::PointRow above_home =
+      estimate_.above_home(estimate_.whitened<3>(by_calibration, by_drift));
+  Eigen::Matrix<double, 3, SharedError::kCalibrationSize> less_height = by_calibration;
+  less_height(2, Index::kHeight) -= 1.0;
+  EXPECT_LT((above_home - estimate_.whitened<3>(less_height, by_drift)).norm(), 1e-12);
+}
+
+// --- How far the camera is lifted.
+
+class Lift : public SharedErrors {
+ protected:
+  /// The height is known so much better than before the flight.
+  void know_height(double height_m, double share_of_prior) {
+    estimate_.calibration.mean[Index::kHeight] = height_m;
+    const double sigma_m = share_of_prior * height_prior_.sigma_at(height_m);
+    estimate_.calibration.covariance(Index::kHeight, Index::kHeight) = sigma_m * sigma_m;
+  }
+};
+
+TEST_F(Lift, IsTheEstimateWhereThatLeavesTheCameraHighAboveTheGround) {
+  for (const double height_m : {-7.0, 0.0, 12.0}) {
+    know_height(height_m, 1.0);
+    EXPECT_EQ(estimate_.lift_m(30.0), height_m);
+  }
+}
+
+/// Ten metres while nothing is known, a quarter of that where half of the sigma is left, and half a metre at
+/// the least.
+TEST_F(Lift, LeavesTheCameraTheHigherAboveTheGroundTheLessIsKnown) {
+  for (const double reported_m : {-20.0, 0.0, 1.0}) {
+    for (const auto& [unknown, least_m] : {std::pair{1.0, 10.0}, {0.5, 2.5}, {0.1, 0.5}, {0.0, 0.5}}) {
+      know_height(-2.0, unknown);
+      EXPECT_NEAR(reported_m + estimate_.lift_m(reported_m), least_m, 1e-9);
+    }
+  }
+}
+
+TEST_F(Lift, HasNoStepWhereTheCameraComesNearTheGround) {
+  know_height(-2.0, 0.5);
+  for (const double reported_m : {4.5 - 1e-9, 4.5 + 1e-9})
+    EXPECT_NEAR(estimate_.lift_m(reported_m), -2.0, 1e-8);
+}
+
+// --- How much of the height is taken to be unknown for telling looks apart.
+
+class BoundedHeight : public SharedErrors {
+ protected:
+  /// Covariance that the roots stand for.
+  Eigen::Matrix<double, SharedError::kCalibrationSize, SharedError::kCalibrationSize> covariance() const {
+    return estimate_.calibration_root * estimate_.calibration_root.transpose();
+  }
+};
+
+TEST_F(BoundedHeight, IsATwentiethOfTheCamerasHeightAtMost) {
+  learn();
+  const double sigma_m = estimate_.calibration.sigma(Index::kHeight);
+  const auto unbounded = covariance();
+  for (const double factor : {0.3, 0.9, 1.1, 10.0}) {
+    estimate_.bound_height(factor * 20.0 * sigma_m);
+    const double share = std::min(1.0, factor);
+    auto expected = unbounded;  // correlations stay
+    expected.row(Index::kHeight) *= share;
+    expected.col(Index::kHeight) *= share;
+    EXPECT_LT((covariance() - expected).norm(), 1e-12) << factor;
+  }
+}
+
+TEST_F(BoundedHeight, IsThatAboveTheGroundOrBelowIt) {
+  estimate_.bound_height(-2.0);
+  EXPECT_NEAR(covariance()(Index::kHeight, Index::kHeight), 0.1 * 0.1, 1e-12);
+}
+
+TEST_F(BoundedHeight, LeavesWhatWasLearntAsItIs) {
+  learn();
+  const Calibration learnt = estimate_.calibration;
+  estimate_.bound_height(0.1);
+  EXPECT_EQ(estimate_.calibration.covariance, learnt.covariance);
+  estimate_.take(solution());
+  EXPECT_NEAR(covariance()(Index::kHeight, Index::kHeight),
+              estimate_.calibration.covariance(Index::kHeight, Index::kHeight), 1e-12);
 }
 
 }  // namespace

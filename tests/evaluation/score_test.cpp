@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace geoloc {
 namespace {
 
@@ -16,6 +18,15 @@ TEST(Score, IsWhatAHandCountGives) {
   EXPECT_NEAR(score.rmse_m, 0.5, 1e-12);
   EXPECT_NEAR(score.relative_rmse_m, 0.0, 1e-12);  // all errors are one offset
   EXPECT_EQ(score.target_of_object, (std::vector<std::optional<std::size_t>>{0, 1, 2, std::nullopt}));
+}
+
+TEST(HeightScore, IsWithAndWithoutTheErrorThatAllShare) {
+  const HeightScore score = score_heights({3.0, 4.0, 5.0, 6.0});
+  EXPECT_NEAR(score.rmse_m, std::sqrt((9.0 + 16.0 + 25.0 + 36.0) / 4.0), 1e-12);
+  EXPECT_NEAR(score.relative_rmse_m, std::sqrt((2.25 + 0.25 + 0.25 + 2.25) / 4.0), 1e-12);
+  EXPECT_EQ(score_heights({-7.0}).rmse_m, 7.0);
+  EXPECT_EQ(score_heights({-7.0}).relative_rmse_m, 0.0);
+  EXPECT_EQ(score_heights({}).rmse_m, 0.0);
 }
 
 TEST(Score, OfNothingIsZero) {

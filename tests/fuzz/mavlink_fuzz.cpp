@@ -78,7 +78,7 @@ io::CameraComponent camera_at(HostTime now) {
   io::CameraComponent camera(105, CameraIntrinsics{});
   io::CameraView view;
   view.captured_at = now;
-  view.targets.push_back({7, {-22.9, -43.1}, 0.5, 20.0, Eigen::Vector2d(0.5, 0.5)});
+  view.targets.push_back({7, {-22.9, -43.1}, 0.5, 12.0, 0.3, 20.0, Eigen::Vector2d(0.5, 0.5)});
   camera.update(view);
   camera.poll(now, io::MavAddress{1, 1}, true, [](const std::uint8_t*, std::size_t) {});
   return camera;

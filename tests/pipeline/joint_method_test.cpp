@@ -320,7 +320,7 @@ TEST(JointCalibration, OfTheCameraBeginsAsThePriorAndTheAutopilotsOwnErrors) {
   const double offset = std::sqrt(0.5 * config.joint.constant_share) * config.joint.horizontal_accuracy_m;
   mean << 0.3 * kDegree, -0.2 * kDegree, 1.0 * kDegree, 0.12, 0.5, 0.0, 0.0;
   sigma << std::hypot(1.0, 0.9) * kDegree, std::hypot(2.0, 0.9) * kDegree, std::hypot(3.0, 0.9) * kDegree,
-      std::hypot(0.04, 0.03), 0.7, offset, offset;
+      std::hypot(0.04, 0.03), 0.7 / std::sqrt(2.0), offset, offset;  // the height's is a Cauchy distribution
   EXPECT_LT((calibration.mean - mean).norm(), 1e-12);
   for (int i = 0; i < CalibrationIndex::kSize; ++i) EXPECT_NEAR(calibration.sigma(i), sigma[i], 1e-12) << i;
 }

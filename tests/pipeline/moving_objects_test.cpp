@@ -28,6 +28,7 @@ GeolocatorConfig noisy_by_the_detector_alone() {
   joint.moving.classes = {kMovingClass, kOtherMovingClass};
   joint.prior.sigma_boresight_x_deg = joint.prior.sigma_boresight_y_deg = 0.0;
   joint.prior.sigma_boresight_z_deg = joint.prior.sigma_latency_s = joint.prior.sigma_height_m = 0.0;
+  joint.drift.sigma_up_m = 1e-6;
   joint.drift.sigma_yaw_deg = 1e-6;
   joint.sigma_attitude_deg = 1e-6;
   joint.sigma_time_s = 0.0;

@@ -65,6 +65,19 @@ TEST(ProjectorByHand, PixelOffTheAxisAddsToTheDepression) {
   expect_near(fix->position_in_enu, Eigen::Vector2d(0.0, 10.0));  // 45 deg down, to the north
 }
 
+/// From 20 m straight down a point that is 4 m up is 16 m away.
+TEST(ProjectorByHand, APointAboveTheGroundAppearsFartherFromTheMiddle) {
+  const Projector projector({}, kPinhole);
+  const Rigid3d camera = looking(90.0, 0.0, {100.0, -50.0, 20.0});
+  const auto pixel = [&](double up_m) {
+    return *projector.reproject(Eigen::Vector3d(103.2, -48.4, up_m), camera);
+  };
+  expect_near(pixel(0.0), Eigen::Vector2d(640.0 + 160.0, 360.0 - 64.0));
+  expect_near(pixel(4.0), Eigen::Vector2d(640.0 + 200.0, 360.0 - 80.0));
+  expect_near(pixel(-12.0), Eigen::Vector2d(640.0 + 100.0, 360.0 - 40.0));
+  EXPECT_FALSE(projector.reproject(Eigen::Vector3d(103.2, -48.4, 20.5), camera));
+}
+
 TEST(ProjectorByHand, RefusesWhatLiesBeyondEachLimit) {
   ProjectorConfig config;
   config.ground_height_above_home_m = -2.0;
@@ -94,8 +107,8 @@ TEST(ProjectorByHand, SeesOnlyWhereItWouldAnswer) {
   EXPECT_TRUE(projector.sees({0.0, 34.6}, oblique, 0.0));
   EXPECT_TRUE(projector.sees({0.0, 45.8}, oblique, 0.0));   // 49.98 m away
   EXPECT_FALSE(projector.sees({0.0, 45.9}, oblique, 0.0));  // 50.07 m away, still in the image
-  EXPECT_TRUE(projector.camera().contains(*projector.reproject({0.0, 45.9}, oblique)));
-  EXPECT_FALSE(projector.reproject({0.0, -34.6}, oblique));  // behind
+  EXPECT_TRUE(projector.camera().contains(*projector.reproject(Eigen::Vector2d(0.0, 45.9), oblique)));
+  EXPECT_FALSE(projector.reproject(Eigen::Vector2d(0.0, -34.6), oblique));  // behind
 }
 
 TEST(ProjectorConfig, EachFieldHasItsLimits) {

@@ -26,13 +26,14 @@ Rigid3d enu_from_camera_of(const NumberLine& view) {
 TEST(ProjectorAgainstOpenCvsNumbers, EachGroundPointAppearsWhereOpenCvShowsIt) {
   ProjectorConfig config;
   config.ground_height_above_home_m = 1.5;
-  std::optional<Projector> projector;
+  std::optional<Projector> projector, of_another_ground;
   Rigid3d enu_from_camera;
   int views = 0, points = 0;
   for (const NumberLine& line : read_number_lines(GEOLOC_TEST_DATA_DIR "/camera/views.txt")) {
     const std::vector<double>& n = line.numbers;
     if (line.word == "lens") {
       projector.emplace(config, intrinsics_of(line));
+      of_another_ground.emplace(ProjectorConfig{}, intrinsics_of(line));
     } else if (line.word == "view") {
       enu_from_camera = enu_from_camera_of(line);
       ++views;
@@ -42,6 +43,10 @@ TEST(ProjectorAgainstOpenCvsNumbers, EachGroundPointAppearsWhereOpenCvShowsIt) {
       const auto fix = projector->project(pixel, enu_from_camera);
       ASSERT_TRUE(seen_at && fix) << views << ": " << ground.transpose();
       EXPECT_LT((*seen_at - pixel).norm(), 1e-8) << views << ": " << ground.transpose();
+      const auto point_seen_at = of_another_ground->reproject(
+          Eigen::Vector3d(ground.x(), ground.y(), config.ground_height_above_home_m), enu_from_camera);
+      ASSERT_TRUE(point_seen_at);
+      EXPECT_LT((*point_seen_at - pixel).norm(), 1e-8) << views << ": " << ground.transpose();
       EXPECT_LT((fix->position_in_enu - ground).norm(), 1e-7) << views << ": " << ground.transpose();
       ++points;
     }

@@ -29,6 +29,31 @@ TEST_P(ProjectorLaws, ReprojectIsTheInverse) {
   EXPECT_GE(fixes, 9);
 }
 
+TEST_P(ProjectorLaws, ReprojectsAGroundPointAsThePointOfThatHeight) {
+  const Projector projector(ground_at_1_5_m(), kCamera);
+  const Rigid3d enu_from_camera = pose_of(GetParam());
+  const auto fix = projector.project({700.0, 600.0}, enu_from_camera);
+  ASSERT_TRUE(fix);
+  const Eigen::Vector3d point(fix->position_in_enu.x(), fix->position_in_enu.y(), 1.5);
+  EXPECT_EQ(*projector.reproject(point, enu_from_camera),
+            *projector.reproject(fix->position_in_enu, enu_from_camera));
+}
+
+/// All points of a ray appear at one pixel.
+TEST_P(ProjectorLaws, ReprojectsEveryPointOfARayToItsPixel) {
+  const Projector projector(ground_at_1_5_m(), kCamera);
+  const Rigid3d enu_from_camera = pose_of(GetParam());
+  const Eigen::Vector2d pixel(500.0, 650.0);
+  const auto fix = projector.project(pixel, enu_from_camera);
+  ASSERT_TRUE(fix);
+  for (const double share : {0.3, 0.8, 1.0, 1.2}) {
+    const Eigen::Vector3d point = enu_from_camera.translation + share * fix->range_m * fix->direction_in_enu;
+    const auto shown = projector.reproject(point, enu_from_camera);
+    ASSERT_TRUE(shown);
+    EXPECT_LT((*shown - pixel).norm(), 1e-6) << share;
+  }
+}
+
 TEST_P(ProjectorLaws, StatedCovarianceIsTheSampledOne) {
   const Projector projector(ground_at_1_5_m(), kCamera);
   const Rigid3d enu_from_camera = pose_of(GetParam());
@@ -86,7 +111,7 @@ TEST(Projector, TellsWhyThereIsNoFix) {
   EXPECT_EQ(reason(nan, -90), NoFix::kNotFinite);
   const Projector folded(config, {1280, 720, 914, 914, 639.5, 359.5, {-0.24, 0, 0, 0, 0}});
   EXPECT_EQ(folded.project({5000.0, 360.0}, pose_of({"", 20, -90, 0, 0})).error(), NoFix::kNoRay);
-  EXPECT_FALSE(projector.reproject({0.0, 0.0}, pose_of({"", 20, 80, 0, 0})));  // behind
+  EXPECT_FALSE(projector.reproject(Eigen::Vector2d(0.0, 0.0), pose_of({"", 20, 80, 0, 0})));  // behind
 }
 
 /// Straight down from 20 m.

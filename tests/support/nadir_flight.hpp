@@ -33,15 +33,15 @@ struct Pose {
   double roll = 0.0, pitch = 0.0, yaw = 0.0;
 };
 
-/// Pixel of a plane ground point at height 0: the camera looks along the body's down axis, its top towards
-/// the nose, from the vehicle's position. The body's axes are the columns of Rz(yaw) Ry(pitch) Rx(roll) in
+/// Pixel of a point (east, north, up): the camera looks along the body's down axis, its top towards the nose,
+/// from the vehicle's position. The body's axes are the columns of Rz(yaw) Ry(pitch) Rx(roll) in
 /// north-east-down, written out.
-inline std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& place, const Pose& pose) {
+inline std::optional<Eigen::Vector2d> pixel_of_point(const Eigen::Vector3d& place, const Pose& pose) {
   const double cr = std::cos(pose.roll), sr = std::sin(pose.roll);
   const double cp = std::cos(pose.pitch), sp = std::sin(pose.pitch);
   const double cy = std::cos(pose.yaw), sy = std::sin(pose.yaw);
   const double north = place.y() - pose.position.y(), east = place.x() - pose.position.x();
-  const double down = pose.position.z();
+  const double down = pose.position.z() - place.z();
   const double along_nose = cp * cy * north + cp * sy * east - sp * down;
   const double along_right =
       (sr * sp * cy - cr * sy) * north + (sr * sp * sy + cr * cy) * east + sr * cp * down;
@@ -50,6 +50,11 @@ inline std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& place, con
   if (along_belly <= 0.0) return std::nullopt;
   return Eigen::Vector2d(kPrincipalX_px + kFocal_px * along_right / along_belly,
                          kPrincipalY_px - kFocal_px * along_nose / along_belly);
+}
+
+/// Of a ground point at height 0.
+inline std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& place, const Pose& pose) {
+  return pixel_of_point({place.x(), place.y(), 0.0}, pose);
 }
 
 /// The box of that size around a pixel, whose centre is at integers (half a pixel from its edges).
@@ -114,7 +119,13 @@ class NadirFlight {
   /// Where the image shows a place; nullopt within `margin_px` of its edge, and outside.
   std::optional<Eigen::Vector2d> shown(double time_s, const Eigen::Vector2d& place,
                                        double margin_px = 20.0) const {
-    const auto pixel = pixel_of(place, truth_(time_s));
+    return shown_point(time_s, {place.x(), place.y(), 0.0}, margin_px);
+  }
+
+  /// The same of a point (east, north, up).
+  std::optional<Eigen::Vector2d> shown_point(double time_s, const Eigen::Vector3d& place,
+                                             double margin_px = 20.0) const {
+    const auto pixel = pixel_of_point(place, truth_(time_s));
     const auto is_inside = [&](double value, double length) {
       return value + 0.5 >= margin_px && value + 0.5 <= length - margin_px;
     };
@@ -138,6 +149,19 @@ class NadirFlight {
     std::vector<Detection> detections;
     for (const Eigen::Vector2d& place : places) {
       if (const auto pixel = shown(time_s, place)) detections.push_back(box_at(*pixel, size_px, class_id));
+    }
+    return process(time_s, std::move(detections));
+  }
+
+  /// The same of points (east, north, up), where each pixel is moved by what `noise_px` draws.
+  template <typename Noise>
+  bool see_points(double time_s, const std::vector<Eigen::Vector3d>& places, Noise noise_px) {
+    std::vector<Detection> detections;
+    for (const Eigen::Vector3d& place : places) {
+      const auto pixel = shown_point(time_s, place);
+      if (!pixel) continue;
+      const double u = pixel->x() + noise_px(), v = pixel->y() + noise_px();
+      detections.push_back(box_at({u, v}));
     }
     return process(time_s, std::move(detections));
   }

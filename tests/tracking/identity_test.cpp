@@ -16,27 +16,28 @@ using testing::lone_look;
 constexpr double kVariance_m2 = 0.04;
 /// What looks at one object from several sides differ by, per axis, of the difference of two.
 constexpr double kOneObject_m2 = 2.0 * 0.15 * 0.15;
+constexpr double kOneHeight_m2 = 2.0 * 0.5 * 0.5;
 
 /// Objects whose looks share no error: only their own noise and that of the frames is in question.
 class TwoTracks : public ::testing::Test {
  protected:
   TwoTracks() { errors_.drift.cover(VehicleTime{}, 0.5); }
 
-  RestingObject& append(const Eigen::Vector2d& place, int hits = 10) {
-    return append_seen(tracks_, errors_, place, hits, kVariance_m2);
+  RestingObject& append(const Eigen::Vector2d& place, int hits = 10,
+                        const Eigen::Vector2d& slope = Eigen::Vector2d::Zero()) {
+    return append_seen(tracks_, errors_, place, hits, kVariance_m2, slope);
   }
 
   ArrowheadSolver::Solution solution() {
-    std::vector<const Landmark*> landmarks;
-    for (const RestingObject& track : tracks_) landmarks.push_back(track.landmark);
-    return *solver_.solve(landmarks, 0.3, errors_.drift);
+    return *solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift);
   }
 
   bool may_be_one_of_two() { return may_be_one(tracks_[0], tracks_[1], solution(), noise_, config_); }
 
   JointTrackerConfig config_;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, DriftConfig{}, solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
+                              solver_};
   TrackTable tracks_{10};
   FrameNoise noise_{0.09 * Eigen::Matrix2d::Identity(), 5.0, 1.0};
 };
@@ -49,10 +50,35 @@ TEST_F(TwoTracks, DifferByTheirOwnNoiseAndThatOfTheFramesThatTheyDoNotShare) {
     b.last_look = VehicleTime{from_seconds(50.0 - apart_s)};
     // Of five frames that share their noise, ten looks leave a half and four leave all.
     const double frames = (1.0 - std::exp(-apart_s)) * (0.5 + 1.0) * 0.09;
-    const double expected = kVariance_m2 / 10.0 + kVariance_m2 / 4.0 + frames + kOneObject_m2;
-    const Eigen::Matrix2d covariance = covariance_of_difference(a, b, solution(), noise_);
-    EXPECT_LT((covariance - expected * Eigen::Matrix2d::Identity()).norm(), 1e-9) << apart_s;
+    const double across = kVariance_m2 / 10.0 + kVariance_m2 / 4.0 + frames + kOneObject_m2;
+    const double height = 2.0 * testing::kSigmaGround_m * testing::kSigmaGround_m + kOneHeight_m2;
+    const PointMatrix expected = Point(across, across, height).asDiagonal();
+    EXPECT_LT((covariance_of_difference(a, b, solution(), noise_) - expected).norm(), 1e-9) << apart_s;
   }
+}
+
+/// Each seen along one ray: where it stands on that depends on how high the ground is, which differs between
+/// two places.
+TEST_F(TwoTracks, DifferByWhatIsNotKnownOfTheirHeights) {
+  const Eigen::Vector2d slope_of_a(0.2, -0.1), slope_of_b(-0.05, 0.3);
+  RestingObject& a = append({0, 0}, 10, slope_of_a);
+  RestingObject& b = append({0.5, 0}, 4, slope_of_b);
+  const double pixels = kVariance_m2 / 10.0 + kVariance_m2 / 4.0;
+  const double ground = testing::kSigmaGround_m * testing::kSigmaGround_m;
+  const Point ray_of_a(slope_of_a.x(), slope_of_a.y(), 1.0), ray_of_b(slope_of_b.x(), slope_of_b.y(), 1.0);
+  PointMatrix expected = Point(pixels + kOneObject_m2, pixels + kOneObject_m2, kOneHeight_m2).asDiagonal();
+  expected += ground * (ray_of_a * ray_of_a.transpose() + ray_of_b * ray_of_b.transpose());
+  EXPECT_LT((covariance_of_difference(a, b, solution(), noise_) - expected).norm(), 1e-9);
+  EXPECT_TRUE(may_be_one_of_two());
+}
+
+/// Two objects that are seen from one side only: either may be higher and farther, but they are on rays of
+/// their own, and no height of theirs brings them together.
+TEST_F(TwoTracks, OnRaysBesideEachOtherAreNotOneHoweverHighTheGroundMayBe) {
+  const Eigen::Vector2d slope(0.3, 0.0);
+  append({0, 0}, 10, slope);
+  append({1.2, 0}, 10, slope);
+  EXPECT_FALSE(may_be_one_of_two());
 }
 
 TEST_F(TwoTracks, MayBeOneWithinTheGate) {
@@ -62,7 +88,7 @@ TEST_F(TwoTracks, MayBeOneWithinTheGate) {
     TrackTable two(2);
     append_seen(two, errors_, {0, 0}, 10, kVariance_m2);
     append_seen(two, errors_, {0, share * gate_m}, 10, kVariance_m2);
-    const auto solution = solver_.solve({two[0].landmark, two[1].landmark}, 0.3, errors_.drift);
+    const auto solution = solver_.solve(two.landmarks(), errors_.prior(), errors_.drift);
     EXPECT_EQ(may_be_one(two[0], two[1], *solution, noise_, config_), share < 1.0);
   }
 }

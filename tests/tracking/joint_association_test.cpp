@@ -285,6 +285,76 @@ TEST_F(JointFrameOfTwoLooks, PairsBeyondTheGateAreDropped) {
 }
 
 constexpr double kLookAlone = 5.53;  ///< -2 ln(2 pi / 100 m^2)
+/// By as much more may leaving a look alone cost, so that it may as well be of something new.
+constexpr double kDoubt = 2.0;
+
+/// The only look of a frame, at the only track near it.
+class LoneLook {
+ public:
+  explicit LoneLook(const Pairing& pairing)
+      : pairing_(pairing),
+        covariance_(pairing.own_covariance + pairing.jacobian * pairing.jacobian.transpose()) {}
+
+  /// -2 ln of the density of a look that is so far off, but for the 2 pi: d^2 + ln det S, and the penalty.
+  double cost_at(double squared_distance) const {
+    return squared_distance + std::log(covariance_.determinant()) + pairing_.penalty;
+  }
+
+  /// The look is so far off, in that direction. However the answer is asked for, it is the same.
+  JointAssociation::Match match_at(double squared_distance, const Eigen::Vector2d& direction) {
+    pairing_.residual =
+        direction * std::sqrt(squared_distance / direction.dot(covariance_.inverse() * direction));
+    JointAssociation association(5, 5);
+    association.begin(1, kGate, kAmbiguity);
+    association.add(pairing_);
+    const JointAssociation::Match match = association.solve()[0];
+    const JointAssociation::Match same = association.solve_thoroughly()[0];
+    EXPECT_EQ(match.track, same.track);
+    EXPECT_EQ(match.is_ambiguous, same.is_ambiguous);
+    return match;
+  }
+
+ private:
+  Pairing pairing_;
+  Eigen::Matrix2d covariance_;
+};
+
+/// Something new is about as likely where the look's density at its track is as low, be it far from the track
+/// or the track's place unsure. Beyond the gate, the look is certainly of something new.
+TEST_F(JointFrameOfTwoLooks, ALoneLookIsInDoubtWhereSomethingNewIsAboutAsLikely) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> scale(0.1, 3.0), angle(0.0, 6.28), penalty(0.0, 2.0);
+  constexpr double kBound = kLookAlone - kDoubt;
+  int certain_to_the_gate = 0, never_certain = 0, at_the_bound = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    Pairing pairing = drawn(0, 3, {0.0, 0.0}, random);
+    const double sigma = scale(random) * scale(random);
+    pairing.jacobian *= sigma;
+    pairing.own_covariance *= sigma * sigma;
+    pairing.penalty = trial % 2 == 0 ? 0.0 : penalty(random);
+    LoneLook look(pairing);
+    const double towards = angle(random);
+    const Eigen::Vector2d direction(std::cos(towards), std::sin(towards));
+    const double gate = kGate - pairing.penalty;
+    const double bound = kBound - look.cost_at(0.0);  // of the squared distance
+    for (const double distance : {0.0, 0.3 * gate, 0.7 * gate, 0.999 * gate, bound - 0.01, bound + 0.01}) {
+      if (distance < 0.0 || distance > gate) continue;
+      const auto match = look.match_at(distance, direction);
+      EXPECT_EQ(match.is_certain(), distance < bound) << trial << ": " << distance << " of " << bound;
+      EXPECT_EQ(match.is_ambiguous, distance > bound) << trial << ": " << distance << " of " << bound;
+      EXPECT_EQ(match.track.has_value(), distance < bound + kAmbiguity) << trial << ": " << distance;
+    }
+    const auto beyond = look.match_at(gate + 0.01, direction);
+    EXPECT_FALSE(beyond.track);
+    EXPECT_FALSE(beyond.is_ambiguous);
+    certain_to_the_gate += bound > gate ? 1 : 0;
+    never_certain += bound < 0.0 ? 1 : 0;
+    at_the_bound += bound > 0.0 && bound < gate ? 1 : 0;
+  }
+  EXPECT_GT(certain_to_the_gate, 20);
+  EXPECT_GT(never_certain, 20);
+  EXPECT_GT(at_the_bound, 200);
+}
 
 struct Explained {
   std::vector<std::optional<std::size_t>> tracks;

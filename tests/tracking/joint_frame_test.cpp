@@ -74,10 +74,12 @@ TEST(FrameNoise, IsSharedByMomentsThatAreNear) {
 }
 
 TEST(FrameShift, LeadsFromAPlaceToWhereTheFrameShowsItAndBack) {
-  const FrameShift shift{{0.5, -0.25}, {0.125, 1.0}, {2.0, 4.0}};
-  const Eigen::Vector2d shown = shift.shown({10.0, 20.0});
+  const FrameShift shift{{0.5, -0.25}, {0.125, 1.0}, {2.0, 4.0}, -3.0};
+  const Eigen::Vector2d shown = shift.shown(Eigen::Vector2d(10.0, 20.0));
   EXPECT_EQ(shown, Eigen::Vector2d(10.0 - 0.5 - 0.125 + 2.0, 20.0 + 0.25 - 1.0 + 4.0));
   EXPECT_EQ(Eigen::Vector2d(shown + shift.correction()), Eigen::Vector2d(10.0, 20.0));
+  // Heights are above the level ground, which has its own height in the frame's view.
+  EXPECT_EQ(shift.shown(Eigen::Vector3d(10.0, 20.0, 1.5)), Eigen::Vector3d(shown.x(), shown.y(), -1.5));
 }
 
 }  // namespace

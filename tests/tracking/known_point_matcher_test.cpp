@@ -47,6 +47,12 @@ TEST(KnownPoints, AreMatchedToTheObjectsThatAreAllOffByTheSame) {
   EXPECT_FALSE(known.survey_of(2));
 }
 
+TEST(KnownPoints, SayWhereTheirObjectsAreAndNothingOfTheirHeights) {
+  const PointInformation information = KnownPointMatcher::Survey{{20.0, -7.0}, 0.5}.information();
+  EXPECT_EQ(information.matrix, PointMatrix(Point(4.0, 4.0, 0.0).asDiagonal()));
+  EXPECT_EQ(information.vector, Point(80.0, -28.0, 0.0));
+}
+
 TEST(KnownPoints, ThatContradictEachOtherAreNotBelieved) {
   KnownPointMatcher known = covered({point_at({0, 0}), point_at({20, 0})});
   EXPECT_FALSE(match(known, {{1, true, 0, {0.8, 0.0}}, {2, true, 0, {19.0, 0.0}}}));

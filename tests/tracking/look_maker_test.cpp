@@ -54,7 +54,7 @@ class LooksFromAbove : public ::testing::Test {
 
   FrameLooks make(const std::vector<LocatedDetection>& detections) {
     LookMaker maker(config_, 20);
-    const JointFrame frame{projector_, view_, span_, drift_, repetition_};
+    const JointFrame frame{projector_, view_, span_, drift_, repetition_, 0.0};
     return maker.make(detections, frame, errors_);
   }
 
@@ -68,7 +68,8 @@ class LooksFromAbove : public ::testing::Test {
   FrameView view_;
   PositionAccuracy accuracy_{0.8, 0.2, 0.02};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{accuracy_, DriftConfig{}, solver_};
+  HeightPrior height_prior_{0.0, 2.0};
+  SharedErrorEstimate errors_{accuracy_, height_prior_, DriftConfig{}, solver_};
   NodeSpan span_{};
   NodeVector drift_ = NodeVector::Zero();
   NoiseRepetition repetition_{5.0, 3.0};
@@ -85,6 +86,25 @@ TEST_F(LooksFromAbove, KnowTheirNoise) {
   const Eigen::Matrix2d time = 0.05 * 0.05 * velocity * velocity.transpose();
   const Eigen::Matrix2d noise = (pixel() + 3.0 * attitude() + 5.0 * position()) * one + time;
   EXPECT_LT((look.observation.information.inverse() - noise).norm(), 1e-9);
+}
+
+/// By similar triangles: whatever the look itself shows, and however much higher the camera is than reported.
+TEST_F(LooksFromAbove, AreComparedWithPointsWhereTheRayThroughThesePassesToTheGround) {
+  for (const double higher_m : {0.0, 2.0, -3.0}) {
+    errors_.calibration.mean[CalibrationIndex::kHeight] = higher_m;
+    const double up_m = kUp_m + higher_m;
+    for (const Look& look : make({located(0.0, 0.0), located(6.0, -5.0), located(-4.0, 3.0)}).at_rest) {
+      EXPECT_NEAR(look.camera_height_m, up_m, 1e-12);
+      for (const Eigen::Vector3d& point :
+           {Eigen::Vector3d(0, 0, 3), Eigen::Vector3d(5, -3, 0), Eigen::Vector3d(5, -3, 4),
+            Eigen::Vector3d(-7, 2, -6), Eigen::Vector3d(2, 1, 0.8 * up_m)}) {
+        const Eigen::Vector2d on_ground = point.head<2>() * up_m / (up_m - point.z());
+        EXPECT_LT((look.shown(point) - on_ground).norm(), 1e-9) << point.transpose();
+        EXPECT_LT((look.slope_at(on_ground) + on_ground / up_m).norm(), 1e-9) << point.transpose();
+      }
+      for (const double above : {1.0, 1.5}) EXPECT_TRUE(look.shown({2.0, 1.0, above * up_m}).allFinite());
+    }
+  }
 }
 
 TEST_F(LooksFromAbove, TrustADetectionAsItTrustsItself) {
@@ -130,7 +150,8 @@ TEST_F(LooksFromAbove, MoveWithTheSharedErrors) {
   constexpr double kDegree = kPi / 180.0;
   // Turning about its right axis the camera looks north, about its down axis east; about its line of sight it
   // sees the same. A late frame shows the vehicle farther back.
-  SharedError::CalibrationRow expected = SharedError::CalibrationRow::Zero();
+  Eigen::Matrix<double, 2, SharedError::kCalibrationSize> expected;
+  expected.setZero();
   expected(1, 0) = kUp_m * prior.sigma_boresight_x_deg * kDegree;
   expected(0, 1) = kUp_m * prior.sigma_boresight_y_deg * kDegree;
   expected.col(3) = -prior.sigma_latency_s * Eigen::Vector2d(3.0, 4.0);
@@ -138,18 +159,49 @@ TEST_F(LooksFromAbove, MoveWithTheSharedErrors) {
   EXPECT_LT((look.jacobian.col(SharedError::kTime) + 0.05 * Eigen::Vector2d(3.0, 4.0)).norm(), 1e-12);
 }
 
+/// From a camera that is higher, what is aside is farther aside; and what is higher is nearer.
+TEST_F(LooksFromAbove, MoveWithTheHeightTheMoreTheFartherAsideTheyAre) {
+  const Look look = make({located(6.0, 5.0)}).at_rest[0];
+  const Eigen::Vector2d per_metre(6.0 / kUp_m, 5.0 / kUp_m);
+  const double sigma_m = height_prior_.sigma_at(0.0);
+  EXPECT_LT(
+      (look.jacobian.col(SharedError::kCalibration + CalibrationIndex::kHeight) - sigma_m * per_metre).norm(),
+      1e-9);
+  EXPECT_LT((look.observation.slope + per_metre).norm(), 1e-9);
+  EXPECT_LT((look.observation.node_jacobian.col(2) - per_metre).norm(), 1e-9);
+}
+
+/// The ray through a pole 8 m high passes over the ground behind it: by similar triangles.
+TEST_F(LooksFromAbove, ShowWhatIsHigherWhereItsRayMeetsTheGround) {
+  const Eigen::Vector2d foot(3.0, -4.2);
+  const Look look = make({located(foot.x() * 20.0 / 12.0, foot.y() * 20.0 / 12.0)}).at_rest[0];
+  EXPECT_LT((look.shown({foot.x(), foot.y(), 8.0}) - look.position).norm(), 1e-9);
+  EXPECT_LT((look.observation.point_jacobian() * Point(foot.x(), foot.y(), 8.0) - look.position).norm(),
+            1e-9);
+}
+
 /// What the fix already holds of the calibration is undone in the sums' values; the offset was never in it.
+/// Of latency and height, that is what the view was located with, and not the estimate.
 TEST_F(LooksFromAbove, AreCorrectedByOffsetAndDrift) {
   errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.5, 0.7, -0.4;
-  drift_ << 0.2, 0.3, 0.05;
+  view_.latency_s = 0.08;
+  view_.lifted_m = 0.3;
+  drift_.setZero();
+  drift_.head<4>() << 0.2, 0.3, 0.4, 0.05;
   const LocatedDetection detection = located(6.0, 5.0);
   const Look look = make({detection}).at_rest[0];
+  const Eigen::Vector2d by_height = (0.5 - 0.3 + 0.4) / kUp_m * Eigen::Vector2d(6.0, 5.0);
+  const Eigen::Vector2d by_latency = -(0.1 - 0.08) * Eigen::Vector2d(3.0, 4.0);
   // Yaw that is more clockwise than reported turns what is seen clockwise about the vehicle.
   const Eigen::Vector2d turned = 0.05 * Eigen::Vector2d(5.0, -6.0);
-  EXPECT_LT((look.position - (Eigen::Vector2d(6.7, 4.6) + Eigen::Vector2d(0.2, 0.3) + turned)).norm(), 1e-9);
+  EXPECT_LT((look.position -
+             (Eigen::Vector2d(6.7, 4.6) + Eigen::Vector2d(0.2, 0.3) + turned + by_height + by_latency))
+                .norm(),
+            1e-9);
   const FixJacobians jacobians = jacobians_of(detection.fix, view_, kUp_m);
-  const Eigen::Vector2d value =
-      Eigen::Vector2d(6.0, 5.0) - jacobians.calibration.leftCols<5>() * errors_.calibration.mean.head<5>();
+  Eigen::Matrix<double, 5, 1> applied;
+  applied << 0.01, -0.02, 0.03, 0.08, 0.3;
+  const Eigen::Vector2d value = Eigen::Vector2d(6.0, 5.0) - jacobians.calibration.leftCols<5>() * applied;
   EXPECT_LT((look.observation.value - value).norm(), 1e-9);
   EXPECT_EQ(look.observation.calibration_jacobian, jacobians.calibration);
   EXPECT_EQ(look.observation.node_jacobian, jacobians.node);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "tracking/resting_objects.hpp"
 
@@ -14,6 +17,8 @@ using testing::append_seen;
 using testing::lone_look;
 
 constexpr double kVariance_m2 = 0.01;
+/// -2 ln of the density, but for the 2 pi, of looks that may as well be of something new.
+constexpr double kCostOfDoubt = 5.53 - 2.0;
 
 /// Objects that many looks have shown, whose looks and tracks share no error but the frame's.
 class MatchedLooks : public ::testing::Test {
@@ -46,7 +51,8 @@ class MatchedLooks : public ::testing::Test {
 
   JointTrackerConfig config_;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, DriftConfig{}, solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
+                              solver_};
   TrackTable tracks_{20};
   LookMatcher matcher_{config_, 20};
   FrameNoise noise_{Eigen::Matrix2d::Zero(), 1.0, 1.0};
@@ -100,11 +106,80 @@ TEST_F(MatchedLooks, ReachAsFarAsWhatShiftsThemAndNotTheTrack) {
   SharedError::Row shifted = SharedError::Row::Zero();
   shifted(0, 2) = 0.5;
   for (const bool is_shared : {true, false}) {
-    object.sensitivity = is_shared ? shifted : SharedError::Row(SharedError::Row::Zero());
+    object.sensitivity.setZero();
+    if (is_shared) object.sensitivity.topRows<2>() = shifted;
     const double variance = kVariance_m2 * 1.01 + (is_shared ? 0.0 : 0.25);
     for (const double factor : {0.98, 1.02}) {
       Look look = lone_look({factor * std::sqrt(config_.gate * variance), 0.0}, kVariance_m2);
       look.jacobian = shifted;
+      tracks_.clear_evidence();
+      matcher_.explain({look}, noise_, now_, tracks_);
+      EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << is_shared;
+    }
+  }
+}
+
+/// The track was seen along one ray, and the look comes along another: they meet where the ground is as high
+/// as expected, and miss each other by what it is not.
+TEST_F(MatchedLooks, FromAnotherSideReachAsFarAsTheGroundMayBeHighOrLow) {
+  const Eigen::Vector2d slope_of_track(0.3, -0.1);
+  for (const Eigen::Vector2d& slope : {Eigen::Vector2d(0.3, -0.1), Eigen::Vector2d(-0.2, 0.1),
+                                       Eigen::Vector2d(-0.2, 0.7), Eigen::Vector2d(0.0, 0.0)}) {
+    TrackTable tracks(1);
+    RestingObject& object = append_seen(tracks, errors_, {0, 0}, 50, kVariance_m2, slope_of_track);
+    object.last_look = now_;
+    const Eigen::Vector2d ground_m = testing::kSigmaGround_m * (slope_of_track - slope);
+    const Eigen::Matrix2d covariance =
+        kVariance_m2 * 1.02 * Eigen::Matrix2d::Identity() + ground_m * ground_m.transpose();
+    for (const Eigen::Vector2d& direction : {Eigen::Vector2d(1, 0), Eigen::Vector2d(0.6, 0.8)}) {
+      const double gate_m =
+          std::sqrt(config_.gate / (direction.transpose() * covariance.inverse() * direction).value());
+      for (const double factor : {0.98, 1.02}) {
+        tracks.clear_evidence();
+        matcher_.explain({lone_look(factor * gate_m * direction, kVariance_m2, slope)}, noise_, now_, tracks);
+        EXPECT_EQ(tracks[0].is_seen || tracks[0].is_in_doubt, factor < 1.0) << slope.transpose();
+      }
+    }
+  }
+}
+
+/// An object on a hill, whose height two rays have told.
+TEST_F(MatchedLooks, ShowAnObjectOnAHillWhereTheirRaysPassIt) {
+  const Eigen::Vector3d place(4.0, -3.0, 2.5);
+  const auto look_along = [&](const Eigen::Vector2d& slope) {
+    return lone_look(place.head<2>() - place.z() * slope, kVariance_m2, slope);
+  };
+  RestingObject& object = append_seen(tracks_, errors_, {0, 0}, 1, kVariance_m2);
+  object.last_look = now_;
+  object.prior = testing::ground_at(place.z(), 5.0);
+  begin_sums(object, look_along({0.5, 0.2}), errors_);
+  for (int i = 0; i < 200; ++i) {
+    add_to_sums(object, look_along({0.5, 0.2}), errors_);
+    add_to_sums(object, look_along({-0.4, 0.1}), errors_);
+  }
+  object.track.hits = 401;
+  EXPECT_LT((object.position_in_enu - place).norm(), 1e-9);
+  for (const Eigen::Vector2d& slope : {Eigen::Vector2d(1.0, -1.0), Eigen::Vector2d(0.0, 0.8)}) {
+    tracks_.clear_evidence();
+    const Explanation& explanation = matcher_.explain({look_along(slope)}, noise_, now_, tracks_);
+    ASSERT_TRUE(explanation.match_of_look[0].is_certain());
+    EXPECT_LT(explanation.match_of_look[0].innovation.norm(), 1e-9);
+  }
+}
+
+/// A height that follows the shared errors moves the track along the look's ray: what the look itself does
+/// of that cancels.
+TEST_F(MatchedLooks, ReachAsFarAsWhatShiftsThemAndNotTheTracksHeight) {
+  RestingObject& object = append({0, 0});
+  const Eigen::Vector2d slope(0.6, 0.0);
+  object.sensitivity(2, 4) = 0.8;
+  const double ground_m = slope.x() * testing::kSigmaGround_m;
+  for (const bool is_shared : {true, false}) {
+    const double variance =
+        kVariance_m2 * 1.01 + ground_m * ground_m + (is_shared ? 0.0 : std::pow(slope.x() * 0.8, 2));
+    for (const double factor : {0.98, 1.02}) {
+      Look look = lone_look({factor * std::sqrt(config_.gate * variance), 0.0}, kVariance_m2, slope);
+      if (is_shared) look.jacobian(0, 4) = -slope.x() * 0.8;
       tracks_.clear_evidence();
       matcher_.explain({look}, noise_, now_, tracks_);
       EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << is_shared;
@@ -123,6 +198,60 @@ TEST_F(MatchedLooks, ReachAsFarAsTheDetectorsNoiseDoesOfWhateverSizeItIs) {
       EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << variance;
     }
   }
+}
+
+/// The bound that spares most pairs a close look spares none that is within the gate: a random track and look
+/// each, beside another track and look that have no part in it but theirs in what all of them follow.
+TEST_F(MatchedLooks, AreComparedWithEveryTrackTheyMayShow) {
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  int within = 0, matched = 0;
+  for (int trial = 0; trial < 1000; ++trial) {
+    TrackTable tracks(2);
+    const auto slope = [&] { return Eigen::Vector2d(0.7 * normal(random), 0.7 * normal(random)); };
+    for (const double east : {0.0, 1000.0}) {
+      RestingObject& object = append_seen(tracks, errors_, {east, 0.0}, 3, kVariance_m2, slope());
+      if (trial % 2 == 0) {  // its height is known, but for what is shared
+        object.prior = testing::ground_at(0.0, 0.01);
+        begin_sums(object, lone_look({east, 0.0}, kVariance_m2, slope()), errors_);
+      }
+      object.last_look = now_;
+      for (double& value : object.sensitivity.reshaped()) value = 0.3 * normal(random);
+      object.sensitivity.row(2) *= 5.0;
+    }
+    Look look = lone_look({6.0 * normal(random), 6.0 * normal(random)}, kVariance_m2, slope());
+    for (double& value : look.jacobian.reshaped()) value = 0.3 * normal(random);
+    Look elsewhere = lone_look({-5000.0, 0.0}, kVariance_m2, look.observation.slope);
+    elsewhere.jacobian = look.jacobian;
+    if (trial % 4 == 0) {  // what moves the one way moves the other the other way, and the tracks not at all
+      look.jacobian *= 5.0;
+      elsewhere.jacobian = -look.jacobian;
+      for (RestingObject& track : tracks) track.sensitivity.setZero();
+    }
+    Eigen::Matrix<double, 2, 3> H;
+    H << 1.0, 0.0, -look.observation.slope.x(), 0.0, 1.0, -look.observation.slope.y();
+    SharedError::Row shared = look.jacobian - H * tracks[0].sensitivity;
+    shared.middleCols<2>(SharedError::kFrame) *= std::sqrt(1.0 - noise_.share_in_track(3));  // seen just now
+    const Eigen::Matrix2d covariance =
+        look.pixel_noise + H * tracks[0].pixel_covariance * H.transpose() + shared * shared.transpose();
+    const Eigen::Vector2d apart = look.position - H * tracks[0].position_in_enu;
+    const double distance = apart.dot(covariance.inverse() * apart);
+    const double cost = distance + std::log(covariance.determinant());  // of the look at its track
+    const auto match = matcher_.explain({look, elsewhere}, noise_, now_, tracks).match_of_look[0];
+    const bool is_its = match.track == 0U;
+    if (distance > config_.gate) {
+      EXPECT_FALSE(is_its || match.is_ambiguous) << trial;
+      continue;
+    }
+    // A pair that is weighed shows: the look is its, or ambiguous.
+    EXPECT_EQ(match.is_ambiguous, cost > kCostOfDoubt) << trial;
+    EXPECT_EQ(is_its, cost < kCostOfDoubt + config_.ambiguity) << trial;
+    ++within;
+    matched += is_its ? 1 : 0;
+  }
+  EXPECT_GT(within, 100);
+  EXPECT_LT(within, 900);
+  EXPECT_GT(matched, 100);
 }
 
 TEST_F(MatchedLooks, OfAnotherClassAreFartherAway) {

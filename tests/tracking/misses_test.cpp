@@ -38,7 +38,8 @@ class Misses : public ::testing::Test {
   JointTrackerConfig config_;
   DetectionRate detection_rate_{kFound};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, DriftConfig{}, solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
+                              solver_};
   TrackTable tracks_{4};
   std::vector<Look> looks_;
 };
@@ -46,7 +47,7 @@ class Misses : public ::testing::Test {
 /// The frame shows a place at itself minus what the vehicle's position is known to be off by, and shifted as
 /// all of its looks are.
 TEST_F(Misses, CountWhereTheFrameShouldShowTheObject) {
-  const FrameShift shift{{0.0, 4.0}, {0.0, 1.0}, {0.0, 2.0}};
+  const FrameShift shift{{0.0, 4.0}, {0.0, 1.0}, {0.0, 2.0}, 0.0};
   RestingObject& north = append({0, 8}, TrackStatus::kTentative, 1);
   RestingObject& south = append({0, -5}, TrackStatus::kTentative, 1);
   EXPECT_FALSE(weigh(shift));
@@ -67,7 +68,7 @@ TEST_F(Misses, DoNotCountWhileAYoungTrackMayBeTheSameObject) {
     tracks[0].track.hits = 50;
     tracks[1].is_seen = true;
     tracks[1].track.hits = hits;
-    const FrameShift none{{0, 0}, {0, 0}, {0, 0}};
+    const FrameShift none{{0, 0}, {0, 0}, {0, 0}, 0.0};
     const JointFrame frame = camera_.frame_at(1.0);
     EXPECT_EQ(weigh_missed(looks_, frame, none, config_, detection_rate_, tracks), hits == 3) << hits;
     EXPECT_EQ(log_odds(tracks[0]) < 0.0, hits > 3) << hits;

@@ -31,8 +31,8 @@ class MovingTracks : public ::testing::Test {
       looks.back().detection.class_id = class_id;
       looks.back().detection.confidence = 0.9;
     }
-    tracker_.update(looks, {camera_.frame_at(time_s), correction_, Eigen::Matrix2d::Zero(), kDetected},
-                    book_);
+    const FrameShift shift{correction_, {0.0, 0.0}, {0.0, 0.0}, 0.0};
+    tracker_.update(looks, {camera_.frame_at(time_s), shift, Eigen::Matrix2d::Zero(), kDetected}, book_);
   }
 
   testing::LookingDown camera_;

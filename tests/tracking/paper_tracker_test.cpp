@@ -30,9 +30,9 @@ class PaperTrackerLife : public ::testing::Test {
     }
     now_ += std::chrono::milliseconds{100};
     FrameView view;
-    view.enu_from_camera = enu_from_body * body_from_camera(CameraMount{});
+    view.enu_from_camera = enu_from_body * body_from_camera(mount_);
     view.captured_at_host = now_;
-    tracker_->update({detections, projector_, view, local_frame_});
+    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_});
   }
 
   const std::vector<Track>& tracks() const { return tracker_->tracks(); }
@@ -40,6 +40,9 @@ class PaperTrackerLife : public ::testing::Test {
   Projector projector_{ProjectorConfig{}, CameraIntrinsics{}};
   PaperTrackerConfig config_;
   LocalFrame local_frame_{Geodetic{}};
+  const StateProvider state_{StateConfig{}};
+  const CameraMount mount_;
+  const FrameViewer viewer_{state_, mount_, CameraOrientation::kComposed};
   std::optional<PaperTracker> tracker_{std::in_place, config_, 64};
   HostTime now_{std::chrono::seconds{1000}};
 };
@@ -169,10 +172,10 @@ TEST_F(PaperTrackerLife, TrustsADetectionLessThatTrustsItselfLess) {
     tracker_.emplace(config_, 64);
     located.fix.position_in_enu = {0.0, 0.0};
     std::vector<LocatedDetection> detections{located};
-    tracker_->update({detections, projector_, view, local_frame_});
+    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_});
     EXPECT_NEAR(tracks()[0].position_in_enu.covariance(0, 0), r + 9.0, 1e-12);
     detections[0].fix.position_in_enu.x() = share * gate_m;
-    tracker_->update({detections, projector_, view, local_frame_});
+    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_});
     ASSERT_EQ(tracks().size(), share < 1.0 ? 1U : 2U);
     if (share > 1.0) continue;
     EXPECT_NEAR(tracks()[0].position_in_enu.mean.x(), 0.5 * share * gate_m, 1e-9);

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <vector>
 
 namespace geoloc {
 namespace {
@@ -47,6 +48,33 @@ TEST(TrackTable, GivesEachRowALandmarkOfItsOwnForItsLife) {
       distinct.insert(row.landmark);
     }
     ASSERT_EQ(distinct.size(), table.size());
+  }
+}
+
+/// Against a search by hand, as rows come and go.
+TEST(TrackTable, FindsTheRowOfATrackAndListsTheLandmarksOfAll) {
+  TrackTable table(8);
+  EXPECT_EQ(table.find(1), nullptr);
+  EXPECT_TRUE(table.landmarks().empty());
+  std::mt19937 random(4);
+  std::uint64_t next_id = 1;
+  for (int step = 0; step < 200; ++step) {
+    if (table.size() == 0 || (!table.is_full() && random() % 2 == 0)) {
+      table.append().track.id = next_id;
+      next_id += 1 + random() % 3;
+    } else {
+      table.remove(random() % table.size());
+    }
+    for (std::uint64_t id = 0; id <= next_id; ++id) {
+      const RestingObject* expected = nullptr;
+      for (const RestingObject& row : table) {
+        if (row.track.id == id) expected = &row;
+      }
+      ASSERT_EQ(table.find(id), expected) << id;
+    }
+    const std::vector<const Landmark*>& landmarks = table.landmarks();
+    ASSERT_EQ(landmarks.size(), table.size());
+    for (std::size_t k = 0; k < table.size(); ++k) EXPECT_EQ(landmarks[k], table[k].landmark);
   }
 }
 

@@ -30,7 +30,7 @@ double visibility_of(const ShownObject& object, double smallest_px = kSmallest_p
 
 ShownObject object_at(double east_m, double north_m, double size_m, double sigma_m = 0.0) {
   ShownObject object;
-  object.position_in_enu = {east_m, north_m};
+  object.position_in_enu = {east_m, north_m, 0.0};
   object.size_m = size_m;
   object.sigma_m = sigma_m;
   return object;
@@ -80,6 +80,17 @@ TEST(Visibility, EndsWhereTheBoxMayTouchTheImagesEdge) {
       EXPECT_NEAR(farthest_seen_m({0, side}, size_m, sigma_m),
                   ground_per_pixel_m * (0.5 * kImageHeight_px - margin_px), 1e-3);
     }
+  }
+}
+
+/// On a hill of 4 m the object is 16 m away: it is at the image's edge where the ground is not yet.
+TEST(Visibility, EndsEarlierOnAHill) {
+  const double half_image_m = 0.5 * kImageWidth_px * kAltitude_m / kFocal_px;
+  for (const double share : {0.75, 0.85}) {
+    ShownObject object = object_at(share * half_image_m, 0, 0.2);
+    EXPECT_GT(visibility_of(object), 0.0);
+    object.position_in_enu.z() = 4.0;
+    EXPECT_EQ(visibility_of(object) > 0.0, share < 0.8);
   }
 }
 

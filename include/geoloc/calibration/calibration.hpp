@@ -36,8 +36,8 @@ struct Calibration {
   double latency_s() const { return mean[CalibrationIndex::kLatency]; }
   double height_m() const { return mean[CalibrationIndex::kHeight]; }
   Eigen::Vector2d offset_m() const { return mean.segment<2>(CalibrationIndex::kOffset); }
-  /// Turns and lifts a camera's nominal pose as estimated; latency is for whoever looks the pose up.
-  void apply_to(Rigid3d& enu_from_camera) const;
+  /// Turns a camera's nominal pose by the boresight.
+  void turn(Rigid3d& enu_from_camera) const;
 
   double sigma(int index) const { return std::sqrt(covariance(index, index)); }
 };
@@ -51,7 +51,7 @@ struct CalibrationPrior {
   double sigma_boresight_y_deg = 1.5;
   double sigma_boresight_z_deg = 3.0;  ///< and the compass is worse than the mount
   double sigma_latency_s = 0.3;
-  double sigma_height_m = 0.7;
+  double sigma_height_m = 2.0;  ///< scale of a distribution with heavy tails: the take-off may lie elsewhere
 
   std::vector<std::string> problems() const;
 };

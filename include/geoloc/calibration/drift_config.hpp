@@ -6,12 +6,14 @@
 
 namespace geoloc {
 
-/// Errors of the vehicle's state that wander: position as the receiver's solution does, yaw as the compass'
-/// does. They are described at nodes a few seconds apart, straight lines between, with a first-order
-/// Gauss-Markov prior from node to node.
+/// Errors of the vehicle's state that wander: position as the receiver's solution does, height as the
+/// barometer does, yaw as the compass does. They are described at nodes a few seconds apart, straight lines
+/// between, with a first-order Gauss-Markov prior from node to node.
 struct DriftConfig {
   double node_spacing_s = 5.0;
   double position_time_constant_s = 30.0;
+  double up_time_constant_s = 30.0;
+  double sigma_up_m = 0.2;
   double yaw_time_constant_s = 60.0;
   double sigma_yaw_deg = 0.7;
   int max_nodes = 36;  ///< older ones are frozen at their estimates

@@ -26,6 +26,15 @@ struct Score {
 /// north [m].
 Score score_objects(const std::vector<Eigen::Vector2d>& objects, const std::vector<Eigen::Vector2d>& targets);
 
+/// How far off the heights of the matched objects are.
+struct HeightScore {
+  double rmse_m = 0.0;
+  double relative_rmse_m = 0.0;  ///< with the run's mean error removed
+};
+
+/// `errors_m`: estimated minus true.
+HeightScore score_heights(const std::vector<double>& errors_m);
+
 /// Mean over the matched objects of the squared error in units of the stated covariance (NEES); 2 where the
 /// covariance is right, 0 where nothing was matched.
 double mean_nees(const std::vector<Gaussian2>& objects, const std::vector<Eigen::Vector2d>& targets,

@@ -49,11 +49,20 @@ struct LocatedDetection {
   GroundFix fix;
 };
 
+/// When a frame was taken, by both clocks.
+struct FrameStamp {
+  VehicleTime captured_at;
+  HostTime captured_at_host;
+};
+
 /// From where a frame was seen.
 struct FrameView {
-  VehicleState vehicle;     ///< at the instant that the frame is taken to show
-  Rigid3d enu_from_camera;  ///< calibration applied
+  VehicleState vehicle;  ///< at the instant that the frame is taken to show
+  /// Calibration applied: turned, and lifted so that the ground lies in the projector's plane.
+  Rigid3d enu_from_camera;
   HostTime captured_at_host;
+  double lifted_m = 0.0;   ///< by so much
+  double latency_s = 0.0;  ///< the vehicle's state is that of so long before the frame's stamp
 };
 
 }  // namespace geoloc

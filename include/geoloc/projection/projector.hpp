@@ -25,8 +25,10 @@ class Projector {
   void project(const std::vector<Eigen::Vector2d>& pixels, const Rigid3d& enu_from_camera,
                std::vector<Expected<GroundFix, NoFix>>& fixes) const;
 
-  /// Pixel of a ground point; nullopt behind the camera or beyond its lens model. It may lie outside the
-  /// image.
+  /// Pixel of a point, by default of the ground; nullopt behind the camera or beyond its lens model. It may
+  /// lie outside the image.
+  std::optional<Eigen::Vector2d> reproject(const Eigen::Vector3d& position_in_enu,
+                                           const Rigid3d& enu_from_camera) const;
   std::optional<Eigen::Vector2d> reproject(const Eigen::Vector2d& position_in_enu,
                                            const Rigid3d& enu_from_camera) const;
 

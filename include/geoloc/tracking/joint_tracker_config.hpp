@@ -35,6 +35,7 @@ struct JointTrackerConfig {
   double least_offset_sigma_m = 0.02;
   double fast_share = 0.25;  ///< of the position's accuracy: changes from second to second
   double fast_time_constant_s = 1.0;
+  double sigma_ground_m = 3.0;  ///< of an object's height above or below the level ground
 
   // Constant errors of the autopilot's state, which no look can tell from the camera's.
   double sigma_attitude_bias_deg = 0.12;
@@ -54,7 +55,7 @@ struct JointTrackerConfig {
   double delete_probability = 0.01;
   double smallest_object_px = 6.0;
   double merge_radius_m = 1.5;
-  double merge_gate = 9.2;  ///< squared Mahalanobis distance; 99 %
+  double merge_gate = 11.3;  ///< squared Mahalanobis distance in space; 99 %
   int max_tracks = 1000;
 
   double solve_period_s = 2.0;

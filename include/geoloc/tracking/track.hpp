@@ -18,6 +18,12 @@ struct Gaussian2 {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Identity();  ///< [m^2]
 };
 
+/// Height of an object, above where the vehicle's home was at the flight's start.
+struct HeightEstimate {
+  double above_home_m = 0.0;
+  double sigma_m = 0.0;
+};
+
 enum class TrackStatus { kTentative, kConfirmed };
 
 /// One object on the ground, as far as it is known.
@@ -25,6 +31,7 @@ struct Track {
   std::uint64_t id = 0;  ///< unique for the life of the tracker, never reused
   TrackStatus status = TrackStatus::kTentative;
   Gaussian2 position_in_enu;
+  std::optional<HeightEstimate> height;      ///< where the method estimates one
   std::optional<Gaussian2> velocity_in_enu;  ///< [m/s]; of objects of moving classes
   int hits = 0;                              ///< detections that made it
   int penalty = 0;  ///< frames in which it should have been seen and was not, less those in which it was

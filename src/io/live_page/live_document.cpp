@@ -30,7 +30,8 @@ void thin_out(std::vector<T>& entries) {
 /// Compares everything that can change on its own.
 bool is_same(const ObjectReport& a, const ObjectReport& b) {
   return a.position_in_enu == b.position_in_enu && a.covariance_in_enu == b.covariance_in_enu &&
-         a.hits == b.hits && a.confidence == b.confidence && a.class_id == b.class_id;
+         a.height.above_home_m == b.height.above_home_m && a.hits == b.hits && a.confidence == b.confidence &&
+         a.class_id == b.class_id;
 }
 
 }  // namespace

@@ -152,10 +152,12 @@ std::string object(const ObjectReport& object, bool is_confirmed) {
                     {"major_m", decimals(object.ellipse.sigma_major_m, 3)},
                     {"minor_m", decimals(object.ellipse.sigma_minor_m, 3)},
                     {"azimuth_deg", decimals(object.ellipse.azimuth_deg, 0)},
+                    {"height_m", decimals(object.height.above_home_m, 2)},
                     {"confidence", decimals(object.confidence, 3)},
                     {"hits", object.hits},
                     {"first_seen", milliseconds(object.first_seen)},
                     {"last_seen", milliseconds(object.last_seen)}};
+  if (object.height.sigma_m) json["sigma_height_m"] = decimals(*object.height.sigma_m, 3);
   if (object.course) {
     json["speed_mps"] = decimals(object.course->speed_mps, 2);
     json["course_deg"] = decimals(object.course->direction_deg, 0);

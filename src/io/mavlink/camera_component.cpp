@@ -145,7 +145,7 @@ void CameraComponent::send_message(std::uint32_t message_id, MavAddress self, co
   if (message_id == kInformation)
     write(writer_.information(self, view_ ? view_->time : VehicleTime{}, image_));
   if (message_id == kFieldOfView && view_) write(writer_.field_of_view(self, *view_, image_));
-  if (message_id == kTracking && view_) write(writer_.tracking(self, *view_, tracked()));
+  if (message_id == kTracking && view_) write(writer_.tracking(self, tracked()));
 }
 
 void CameraComponent::poll(HostTime now, const std::optional<MavAddress>& vehicle, bool is_v2,

@@ -83,7 +83,7 @@ OutgoingFrame CameraWriter::field_of_view(MavAddress self, const CameraView& vie
   return pack(self, sequence_++, true, mavlink_msg_camera_fov_status_encode_status, fields);
 }
 
-OutgoingFrame CameraWriter::tracking(MavAddress self, const CameraView& view, const CameraTarget* target) {
+OutgoingFrame CameraWriter::tracking(MavAddress self, const CameraTarget* target) {
   mavlink_camera_tracking_geo_status_t fields{};
   fields.tracking_status = CAMERA_TRACKING_STATUS_FLAGS_IDLE;
   for (float* unknown : {&fields.h_acc, &fields.v_acc, &fields.vel_n, &fields.vel_e, &fields.vel_d,
@@ -95,8 +95,9 @@ OutgoingFrame CameraWriter::tracking(MavAddress self, const CameraView& view, co
                             : CAMERA_TRACKING_STATUS_FLAGS_ACTIVE | CAMERA_TRACKING_STATUS_FLAGS_COASTING;
     fields.lat = scaled(target->position.latitude_deg, 1e7);
     fields.lon = scaled(target->position.longitude_deg, 1e7);
-    fields.alt = view.ground_height_msl_m ? static_cast<float>(*view.ground_height_msl_m) : kUnknown;
+    fields.alt = target->height_msl_m ? static_cast<float>(*target->height_msl_m) : kUnknown;
     fields.h_acc = static_cast<float>(target->sigma_horizontal_m);
+    if (target->sigma_height_m) fields.v_acc = static_cast<float>(*target->sigma_height_m);
     fields.dist = static_cast<float>(target->distance_m);
   }
   return pack(self, sequence_++, true, mavlink_msg_camera_tracking_geo_status_encode_status, fields);

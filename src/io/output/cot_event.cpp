@@ -25,11 +25,12 @@ std::string type_of(const ObjectReport& object, const CotConfig& config) {
   return found != config.types.end() ? found->second : config.type;
 }
 
-std::string remarks(const ObjectReport& object, const CotContext& context) {
+std::string remarks(const ObjectReport& object) {
   std::string text = fmt::format(
       "confidence {:.3f}, {} looks, 1 sigma {:.2f} m x {:.2f} m towards {:.0f} deg", object.confidence,
       object.hits, object.ellipse.sigma_major_m, object.ellipse.sigma_minor_m, object.ellipse.azimuth_deg);
-  if (context.height_msl_m) text += fmt::format(", {:.1f} m above mean sea level", *context.height_msl_m);
+  if (object.height.msl_m && std::isfinite(*object.height.msl_m))
+    text += fmt::format(", {:.1f} m above mean sea level", *object.height.msl_m);
   return text;
 }
 
@@ -45,7 +46,8 @@ std::string track_of(const ObjectReport& object) {
 std::string to_cot(const ObjectReport& object, const CotContext& context, const CotConfig& config) {
   const double p = config.error_probability;
   const double ce = circular_error(object.ellipse.sigma_major_m, object.ellipse.sigma_minor_m, p);
-  const double le = context.height_ellipsoid_m ? circular_error(config.sigma_height_m, 0.0, p) : kUnknown;
+  const double sigma_height_m = std::hypot(config.sigma_height_m, object.height.sigma_m.value_or(0.0));
+  const double le = context.height_ellipsoid_m ? circular_error(sigma_height_m, 0.0, p) : kUnknown;
   const std::string name = escape_markup(clean_text(object.class_name, kLongestName));
   const HostTime stale_at =
       context.sent_at + (context.is_gone ? Duration::zero() : from_seconds(config.stale_s));
@@ -57,9 +59,9 @@ std::string to_cot(const ObjectReport& object, const CotContext& context, const 
       "<remarks>{}</remarks></detail></event>\n",
       escape_markup(context.uid), type_of(object, config), iso8601(context.sent_at),
       iso8601(std::min(object.last_seen, context.sent_at)), iso8601(stale_at), object.position.latitude_deg,
-      object.position.longitude_deg, context.height_ellipsoid_m.value_or(kUnknown), known_or(ce, kUnknown),
-      le, name, object.id, context.height_ellipsoid_m ? "Calculated" : "???", track_of(object),
-      remarks(object, context));
+      object.position.longitude_deg, known_or(context.height_ellipsoid_m.value_or(kUnknown), kUnknown),
+      known_or(ce, kUnknown), known_or(le, kUnknown), name, object.id,
+      context.height_ellipsoid_m ? "Calculated" : "???", track_of(object), remarks(object));
 }
 
 }  // namespace geoloc::io

@@ -37,7 +37,6 @@ CotSink::CotSink(std::string target, const CotConfig& config, const CotConnectio
 void CotSink::on_frame(const OutputFrame& frame) {
   if (run_.empty()) run_ = whole_seconds(frame.captured_at);
   objects_ = frame.objects;
-  ground_height_msl_m_ = frame.ground_height_msl_m;
   send_due();
 }
 
@@ -81,9 +80,8 @@ void CotSink::send(const ObjectReport& object, bool is_gone) {
   context.uid = config_.uid_prefix + "." + run_ + "." + std::to_string(object.id);
   context.sent_at = utc_now();
   context.is_gone = is_gone;
-  context.height_msl_m = ground_height_msl_m_;
-  if (ground_height_msl_m_)
-    context.height_ellipsoid_m = geoid_.height_ellipsoid_m(object.position, *ground_height_msl_m_);
+  if (object.height.msl_m)
+    context.height_ellipsoid_m = geoid_.height_ellipsoid_m(object.position, *object.height.msl_m);
   connection_.send(to_cot(object, context, config_));
 }
 

@@ -18,7 +18,11 @@ ordered_json properties_to_json(const ObjectReport& object) {
                           {"last_seen", iso8601(object.last_seen)},
                           {"sigma_major_m", decimals(object.ellipse.sigma_major_m, 4)},
                           {"sigma_minor_m", decimals(object.ellipse.sigma_minor_m, 4)},
-                          {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)}};
+                          {"sigma_azimuth_deg", decimals(object.ellipse.azimuth_deg, 1)},
+                          {"height_above_home_m", decimals(object.height.above_home_m, 3)},
+                          {"sigma_height_m", nullptr}};
+  if (object.height.sigma_m) properties["sigma_height_m"] = decimals(*object.height.sigma_m, 4);
+  if (object.height.msl_m) properties["height_msl_m"] = decimals(*object.height.msl_m, 3);
   if (object.course) {
     properties["speed_mps"] = decimals(object.course->speed_mps, 2);
     properties["course_deg"] = decimals(object.course->direction_deg, 1);

@@ -8,6 +8,8 @@
 #include <ctime>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/projection/projector.hpp"
+#include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::io {
 
@@ -27,6 +29,16 @@ Course course_of(const Eigen::Vector2d& velocity_in_enu) {
   return {velocity_in_enu.norm(), direction_deg < 0.0 ? direction_deg + 360.0 : direction_deg};
 }
 
+HeightReport height_of(const Track& track, const Geolocator& geolocator) {
+  HeightReport height;
+  height.above_home_m =
+      track.height ? track.height->above_home_m : geolocator.projector().config().ground_height_above_home_m;
+  if (track.height) height.sigma_m = track.height->sigma_m;
+  if (const auto home_msl_m = geolocator.state().home_height_msl_m())
+    height.msl_m = *home_msl_m + height.above_home_m;
+  return height;
+}
+
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
                                          const std::vector<std::string>& class_names, TrackStatus status) {
   std::vector<ObjectReport> reports;
@@ -44,6 +56,7 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
     report.position = geolocator.local_frame()->to_geodetic(report.position_in_enu);
     report.covariance_in_enu = track.position_in_enu.covariance;
     report.ellipse = error_ellipse(track.position_in_enu.covariance);
+    report.height = height_of(track, geolocator);
     if (track.velocity_in_enu) report.course = course_of(track.velocity_in_enu->mean);
     reports.push_back(report);
   }

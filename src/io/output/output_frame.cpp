@@ -62,10 +62,6 @@ OutputFrame report_frame(const Geolocator& geolocator, bool is_located, HostTime
   frame.objects = report_objects(geolocator, class_names, TrackStatus::kConfirmed);
   frame.tentative = report_objects(geolocator, class_names, TrackStatus::kTentative);
   frame.estimator = report_estimator(geolocator);
-  if (const auto home_height_msl_m = geolocator.state().home_height_msl_m()) {
-    frame.ground_height_msl_m =
-        *home_height_msl_m + geolocator.projector().config().ground_height_above_home_m;
-  }
   if (!is_located) return frame;
   frame.view = report_view(geolocator);
   for (const LocatedDetection& located : geolocator.located()) {

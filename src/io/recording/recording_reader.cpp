@@ -108,6 +108,8 @@ TrueTarget parse_target(const json& feature, int position) {
     if (properties->contains("class_id")) {
       target.class_id = whole_number((*properties)["class_id"], "class_id", 1e6);
     }
+    if (properties->contains("height_above_home_m"))
+      target.height_above_home_m = finite_number((*properties)["height_above_home_m"], "height_above_home_m");
   }
   return target;
 }

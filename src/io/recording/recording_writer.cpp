@@ -112,11 +112,13 @@ void RecordingWriter::finish() {
 std::string truth_to_geojson(const std::vector<TrueTarget>& targets) {
   auto features = nlohmann::ordered_json::array();
   for (const TrueTarget& target : targets) {
+    nlohmann::ordered_json properties{{"id", target.id}, {"class_id", target.class_id}};
+    if (target.height_above_home_m) properties["height_above_home_m"] = *target.height_above_home_m;
     features.push_back({{"type", "Feature"},
                         {"geometry",
                          {{"type", "Point"},
                           {"coordinates", {target.position.longitude_deg, target.position.latitude_deg}}}},
-                        {"properties", {{"id", target.id}, {"class_id", target.class_id}}}});
+                        {"properties", std::move(properties)}});
   }
   const nlohmann::ordered_json collection{{"type", "FeatureCollection"}, {"features", std::move(features)}};
   return collection.dump(1) + "\n";

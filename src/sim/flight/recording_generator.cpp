@@ -16,6 +16,7 @@ std::vector<std::string> RecordingSettings::problems() const {
   Problems found;
   found.add(run.problems());
   found.add(detector.problems());
+  found.add(terrain.problems());
   return found.take();
 }
 
@@ -24,7 +25,8 @@ std::vector<io::RecordedFrame> generate_frames(const Flight& flight, const Recor
   const CameraErrors& errors = settings.run.errors;
   const std::uint64_t seed = run_seed(settings.run, flight);
   const TrueCamera camera = make_true_camera(settings.run, seed);
-  SimulatedDetector detector(settings.detector, camera.intrinsics, targets_in_enu, seed);
+  SimulatedDetector detector(settings.detector, camera.intrinsics,
+                             standing_on(settings.terrain, targets_in_enu), seed);
   Random timing(stream_seed(seed, RandomStream::kTiming));
   const TimeSpan span = run_span(settings.run, flight.truth);
 
@@ -60,6 +62,8 @@ std::string injected_json(const Flight& flight, const RecordingSettings& setting
       {"mount_error_deg", {{"roll", error_deg.x()}, {"pitch", error_deg.y()}, {"yaw", error_deg.z()}}},
       {"distortion", camera.intrinsics.distortion},
       {"lens_is_calibrated", run.errors.lens_is_calibrated},
+      {"terrain",
+       {{"hills_m", settings.terrain.hills_m}, {"level_above_home_m", settings.terrain.level_above_home_m}}},
       {"detector",
        {{"target_size_m", settings.detector.target_size_m},
         {"pixel_noise_px", settings.detector.pixel_noise_px},
@@ -77,7 +81,7 @@ void write_recording(const std::filesystem::path& folder, const Flight& flight,
 
   io::RecordingWriter writer(folder);
   writer.write_camera(nominal_camera(settings.run));
-  writer.write_truth(true_targets(targets_in_enu, flight.truth.frame()));
+  writer.write_truth(true_targets(standing_on(settings.terrain, targets_in_enu), flight.truth.frame()));
   writer.write_extra("sim.json", injected_json(flight, settings));
   for (const io::TlogRecord& record : flight.telemetry.records()) {
     writer.add_telemetry(record.received_at, record.frame, record.size);

@@ -99,11 +99,12 @@ TimeSpan run_span(const RunSettings& settings, const Trajectory& truth) {
   return asked;
 }
 
-std::vector<io::TrueTarget> true_targets(const std::vector<Eigen::Vector2d>& positions_in_enu,
+std::vector<io::TrueTarget> true_targets(const std::vector<Eigen::Vector3d>& positions_in_enu,
                                          const LocalFrame& frame) {
   std::vector<io::TrueTarget> targets;
-  for (const Eigen::Vector2d& position_in_enu : positions_in_enu) {
-    targets.push_back({static_cast<int>(targets.size()), 0, frame.to_geodetic(position_in_enu)});
+  for (const Eigen::Vector3d& position_in_enu : positions_in_enu) {
+    targets.push_back({static_cast<int>(targets.size()), 0, frame.to_geodetic(position_in_enu.head<2>()),
+                       position_in_enu.z()});
   }
   return targets;
 }

@@ -45,9 +45,9 @@ std::vector<std::string> DetectorModel::problems() const {
 }
 
 std::optional<Box> disc_in_image(const CameraModel& camera, const Rigid3d& camera_from_enu,
-                                 const Eigen::Vector2d& centre_in_enu, const DetectorModel& model) {
-  const auto project = [&](const Eigen::Vector2d& point_in_enu) {
-    return camera.pixel(camera_from_enu * Eigen::Vector3d{point_in_enu.x(), point_in_enu.y(), 0.0});
+                                 const Eigen::Vector3d& centre_in_enu, const DetectorModel& model) {
+  const auto project = [&](const Eigen::Vector3d& point_in_enu) {
+    return camera.pixel(camera_from_enu * point_in_enu);
   };
   const auto centre = project(centre_in_enu);
   if (!centre) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<Box> disc_in_image(const CameraModel& camera, const Rigid3d& camer
   Eigen::AlignedBox2d outline;
   for (int i = 0; i < kOutlinePoints; ++i) {
     const double direction = 2.0 * kPi * i / kOutlinePoints;
-    const Eigen::Vector2d rim{std::cos(direction), std::sin(direction)};
+    const Eigen::Vector3d rim{std::cos(direction), std::sin(direction), 0.0};
     const auto pixel = project(centre_in_enu + 0.5 * model.target_size_m * rim);
     if (!pixel) return std::nullopt;
     outline.extend(*pixel);
@@ -67,7 +67,7 @@ std::optional<Box> disc_in_image(const CameraModel& camera, const Rigid3d& camer
 }
 
 SimulatedDetector::SimulatedDetector(const DetectorModel& model, const CameraIntrinsics& intrinsics,
-                                     std::vector<Eigen::Vector2d> targets_in_enu, std::uint64_t seed)
+                                     std::vector<Eigen::Vector3d> targets_in_enu, std::uint64_t seed)
     : model_(model),
       camera_(intrinsics),
       targets_in_enu_(std::move(targets_in_enu)),
@@ -79,7 +79,7 @@ SimulatedDetector::SimulatedDetector(const DetectorModel& model, const CameraInt
 std::vector<Detection> SimulatedDetector::detect(const Rigid3d& enu_from_camera) {
   const Rigid3d camera_from_enu = enu_from_camera.inverse();
   std::vector<Detection> found;
-  for (const Eigen::Vector2d& target_in_enu : targets_in_enu_) {
+  for (const Eigen::Vector3d& target_in_enu : targets_in_enu_) {
     auto box = disc_in_image(camera_, camera_from_enu, target_in_enu, model_);
     if (!box) continue;
     // Drawn whether or not the target is missed, so that another miss rate leaves the noise alone.

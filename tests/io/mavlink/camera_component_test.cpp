@@ -80,7 +80,7 @@ class CameraComponentTest : public ::testing::Test {
 };
 
 CameraTarget target(std::uint64_t id, double distance_m, std::optional<Eigen::Vector2d> image_point = {}) {
-  return {id, {static_cast<double>(id), 8.0}, 0.5, distance_m, image_point};
+  return {id, {static_cast<double>(id), 8.0}, 0.5, {}, {}, distance_m, image_point};
 }
 
 TEST_F(CameraComponentTest, SaysThatItIsThereOnceASecond) {

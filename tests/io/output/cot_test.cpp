@@ -38,15 +38,24 @@ TEST(CotEndpoint, IsUdpOrTcp) {
 TEST(CotEvent, HasATypeForItsClassAndErrorsOfThatProbability) {
   CotConfig config;
   config.types["car"] = "a-n-G-E-V-C";
-  const std::string event = to_cot(a_car(), {"u", HostTime{}, false, {}, 10.0}, config);
+  const std::string event = to_cot(a_car(), {"u", HostTime{}, false, 10.0}, config);
   EXPECT_NE(event.find("type=\"a-n-G-E-V-C\""), std::string::npos);
   EXPECT_NE(event.find("ce=\"2.15\""), std::string::npos) << event;  // sqrt(-2 ln 0.1)
   EXPECT_NE(event.find("le=\"3.29\""), std::string::npos) << event;  // 1.645 * 2 m
   EXPECT_NE(event.find("hae=\"10.00\""), std::string::npos) << event;
 }
 
+/// What the object's height and sea level are off by are independent.
+TEST(CotEvent, IsAsUnsureOfTheHeightAsObjectAndSeaLevelTogether) {
+  ObjectReport car = a_car();
+  car.height = {12.0, 1.5, 34.5};
+  const std::string event = to_cot(car, {"u", HostTime{}, false, 10.0}, {});
+  EXPECT_NE(event.find("le=\"4.11\""), std::string::npos) << event;  // 1.645 * hypot(2, 1.5)
+  EXPECT_NE(event.find("34.5 m above mean sea level"), std::string::npos) << event;
+}
+
 TEST(CotEvent, OfAnObjectThatIsGoneIsOutOfDateAtOnce) {
-  const std::string event = to_cot(a_car(), {"u", HostTime{}, true, {}, {}}, {});
+  const std::string event = to_cot(a_car(), {"u", HostTime{}, true, {}}, {});
   EXPECT_NE(event.find("stale=\"1970-01-01T00:00:00.000Z\""), std::string::npos);
   EXPECT_NE(event.find("hae=\"9999999.00\""), std::string::npos);
 }

@@ -26,7 +26,7 @@ void write_recording(const std::filesystem::path& folder) {
   writer.write_camera(CameraConfig{});
   writer.write_config("{}");
   writer.write_class_names({"target", "\xff not UTF-8"});
-  writer.write_truth({{7, 2, {-22.906123456789, -43.133987654321}}});
+  writer.write_truth({{7, 2, {-22.906123456789, -43.133987654321}, -1.25}});
   writer.add_telemetry(at_us(1'000'000), kHeartbeat.data(), kHeartbeat.size());
   writer.add_frame(some_frame(1'000'100));
   writer.add_frame({at_us(1'000'200), {}, std::nullopt});
@@ -56,6 +56,7 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   ASSERT_EQ(recording.truth.size(), 1U);
   EXPECT_EQ(recording.truth[0].id, 7);
   EXPECT_DOUBLE_EQ(recording.truth[0].position.latitude_deg, -22.906123456789);
+  EXPECT_EQ(recording.truth[0].height_above_home_m, -1.25);
   EXPECT_EQ(recording.class_names.at(0), "target");
   EXPECT_EQ(recording.config_json, "{}\n");
 }

@@ -22,7 +22,7 @@ class CameraWriter {
   OutgoingFrame field_of_view(MavAddress self, const CameraView& view, const CameraIntrinsics& image);
 
   /// CAMERA_TRACKING_GEO_STATUS; without a target the camera is idle.
-  OutgoingFrame tracking(MavAddress self, const CameraView& view, const CameraTarget* target);
+  OutgoingFrame tracking(MavAddress self, const CameraTarget* target);
 
  private:
   std::uint8_t sequence_ = 0;

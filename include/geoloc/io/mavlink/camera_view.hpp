@@ -16,7 +16,9 @@ struct CameraTarget {
   std::uint64_t id = 0;
   Geodetic position;
   double sigma_horizontal_m = 0.0;  ///< along the major axis
-  double distance_m = 0.0;          ///< from the camera
+  std::optional<double> height_msl_m;
+  std::optional<double> sigma_height_m;
+  double distance_m = 0.0;  ///< from the camera
   /// Where it is in the image, 0..1 from its left and top edge; nullopt where it is not in the image.
   std::optional<Eigen::Vector2d> image_point;
 };

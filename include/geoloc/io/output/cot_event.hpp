@@ -14,7 +14,6 @@ struct CotContext {
   std::string uid;
   HostTime sent_at;
   bool is_gone = false;  ///< the object is no longer believed to exist: the event is stale at once
-  std::optional<double> height_msl_m;
   std::optional<double> height_ellipsoid_m;  ///< sent as unknown where it is
 };
 

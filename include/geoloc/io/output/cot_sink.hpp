@@ -44,7 +44,6 @@ class CotSink final : public Sink {
   CotConnection connection_;
   std::string run_;  // of the uid
   std::vector<ObjectReport> objects_;
-  std::optional<double> ground_height_msl_m_;
   std::map<std::uint64_t, Told> told_;  // by the object's id
   std::uint64_t connections_ = 0;       // when told_ began
 };

@@ -32,6 +32,13 @@ struct Course {
 
 Course course_of(const Eigen::Vector2d& velocity_in_enu);
 
+/// Height of an object.
+struct HeightReport {
+  double above_home_m = 0.0;      ///< above the vehicle's home at the flight's start
+  std::optional<double> sigma_m;  ///< where the method estimates heights; otherwise it is the ground's as set
+  std::optional<double> msl_m;    ///< above mean sea level, where home's is known
+};
+
 /// What every output reports about an object.
 struct ObjectReport {
   std::uint64_t id = 0;
@@ -45,8 +52,11 @@ struct ObjectReport {
   Eigen::Vector2d position_in_enu = Eigen::Vector2d::Zero();
   Eigen::Matrix2d covariance_in_enu = Eigen::Matrix2d::Zero();  ///< east, north [m^2]
   ErrorEllipse ellipse;
+  HeightReport height;
   std::optional<Course> course;  ///< of objects of moving classes
 };
+
+HeightReport height_of(const Track& track, const Geolocator& geolocator);
 
 /// The objects with that status in order of their ids.
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,

@@ -52,9 +52,6 @@ struct OutputFrame {
   std::vector<ObjectReport> objects;  ///< confirmed, in order of their ids
   std::vector<ObjectReport> tentative;
   EstimatorReport estimator;
-  /// Height above mean sea level of the plane that objects lie on, from the autopilot's home. It is metres
-  /// off on real vehicles. nullopt before the first position.
-  std::optional<double> ground_height_msl_m;
 };
 
 /// `is_located` is what Geolocator::process() returned for this frame.

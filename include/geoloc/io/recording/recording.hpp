@@ -29,6 +29,7 @@ struct TrueTarget {
   int id = 0;
   int class_id = 0;
   Geodetic position;
+  std::optional<double> height_above_home_m;
 };
 
 }  // namespace geoloc::io

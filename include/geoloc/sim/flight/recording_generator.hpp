@@ -9,12 +9,14 @@
 #include "geoloc/io/recording/recording.hpp"
 #include "geoloc/sim/flight/run_settings.hpp"
 #include "geoloc/sim/flight/simulated_detector.hpp"
+#include "geoloc/sim/flight/terrain.hpp"
 
 namespace geoloc::sim {
 
 struct RecordingSettings {
   RunSettings run;
   DetectorModel detector;
+  Terrain terrain;
 
   /// Every fault, named by its JSON path.
   std::vector<std::string> problems() const;

@@ -61,8 +61,8 @@ TimeSpan run_span(const RunSettings& settings, const Trajectory& truth);
 /// Where the run's targets stand, east and north of home [m].
 std::vector<Eigen::Vector2d> make_targets(const RunSettings& settings);
 
-/// The targets as they stand in truth files: ids from 0, class 0.
-std::vector<io::TrueTarget> true_targets(const std::vector<Eigen::Vector2d>& positions_in_enu,
+/// The targets as they stand in truth files: ids from 0, class 0. Up is the height above home.
+std::vector<io::TrueTarget> true_targets(const std::vector<Eigen::Vector3d>& positions_in_enu,
                                          const LocalFrame& frame);
 
 }  // namespace geoloc::sim

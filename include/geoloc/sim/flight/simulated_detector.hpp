@@ -26,17 +26,17 @@ struct DetectorModel {
   std::vector<std::string> problems() const;
 };
 
-/// Box around the image of a disc on the ground, cut at the image's edges; nullopt where less than
+/// Box around the image of a level disc, cut at the image's edges; nullopt where less than
 /// min_visible_fraction of it lies within the image, or any of it behind the camera.
 std::optional<Box> disc_in_image(const CameraModel& camera, const Rigid3d& camera_from_enu,
-                                 const Eigen::Vector2d& centre_in_enu, const DetectorModel& model);
+                                 const Eigen::Vector3d& centre_in_enu, const DetectorModel& model);
 
 /// Draws what a detector would report, frame by frame.
 class SimulatedDetector {
  public:
   /// Throws std::invalid_argument naming every problem.
   SimulatedDetector(const DetectorModel& model, const CameraIntrinsics& intrinsics,
-                    std::vector<Eigen::Vector2d> targets_in_enu, std::uint64_t seed);
+                    std::vector<Eigen::Vector3d> targets_in_enu, std::uint64_t seed);
 
   /// Detections of one frame, the most confident first. Confidence is drawn alike for targets and clutter.
   std::vector<Detection> detect(const Rigid3d& enu_from_camera);
@@ -47,7 +47,7 @@ class SimulatedDetector {
 
   DetectorModel model_;
   CameraModel camera_;
-  std::vector<Eigen::Vector2d> targets_in_enu_;
+  std::vector<Eigen::Vector3d> targets_in_enu_;
   Random detections_;
   Random clutter_;
 };

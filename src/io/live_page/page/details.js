@@ -64,6 +64,7 @@ function facts(object) {
   const entries = [
     ["σ major, minor", `${sigmaText(object.major_m)}, ${sigmaText(object.minor_m)}`],
     ["Major axis", `${number(object.azimuth_deg, 0)}° from north`],
+    ["Height above home", `${number(object.height_m, 2)} m${object.sigma_height_m === undefined ? "" : ` ± ${sigmaText(object.sigma_height_m)}`}`],
     ["Confidence", `${number(100 * object.confidence, 1)} %`],
     ...(object.speed_mps === undefined ? [] : [
       ["Speed, course", `${number(object.speed_mps, 1)} m/s, ${number(object.course_deg, 0)}°`],

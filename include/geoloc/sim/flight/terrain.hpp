@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace geoloc::sim {
+
+/// Height of the ground that targets stand on: waves of 30 to 80 m about a level.
+struct Terrain {
+  double hills_m = 0.0;             ///< amplitude of the waves; the height's standard deviation is 0.87 of it
+  double level_above_home_m = 0.0;  ///< of the whole ground: where the vehicle takes off elsewhere
+
+  /// Every fault, named by its JSON path.
+  std::vector<std::string> problems() const;
+
+  double height_above_home_m(const Eigen::Vector2d& position_in_enu) const;
+};
+
+/// The targets with their heights above home.
+std::vector<Eigen::Vector3d> standing_on(const Terrain& terrain,
+                                         const std::vector<Eigen::Vector2d>& positions_in_enu);
+
+}  // namespace geoloc::sim

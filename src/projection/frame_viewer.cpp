@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "projection/frame_viewer.hpp"
+
+#include "projection/camera_pose.hpp"
+
+namespace geoloc {
+
+Expected<FrameView, NoState> FrameViewer::nominal_view(FrameStamp stamp, double latency_s) const {
+  const auto vehicle = state.at(stamp.captured_at - from_seconds(latency_s));
+  if (!vehicle) return vehicle.error();
+  return FrameView{*vehicle, enu_from_camera(*vehicle, mount, orientation), stamp.captured_at_host, 0.0,
+                   latency_s};
+}
+
+}  // namespace geoloc

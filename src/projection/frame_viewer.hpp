@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "geoloc/camera/camera.hpp"
+#include "geoloc/geometry/expected.hpp"
+#include "geoloc/projection/ground_fix.hpp"
+#include "geoloc/state/state_provider.hpp"
+
+namespace geoloc {
+
+/// From where frames were seen, by their stamps and a latency. Refers to what it is made of.
+struct FrameViewer {
+  const StateProvider& state;
+  const CameraMount& mount;
+  CameraOrientation orientation;
+
+  /// The nominal pose, neither turned nor lifted. NoState: why there is none.
+  Expected<FrameView, NoState> nominal_view(FrameStamp stamp, double latency_s) const;
+};
+
+}  // namespace geoloc

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/opening_looks.hpp"
+
+namespace geoloc {
+namespace {
+
+/// Ten seconds at ten frames a second, and ten looks in each.
+constexpr std::size_t kMostFrames = 100;
+constexpr std::size_t kMostSightings = 1000;
+
+FrameView with(const SharedErrorEstimate& errors, double ground_height_above_home_m, FrameView view) {
+  errors.calibration.turn(view.enu_from_camera);
+  view.lifted_m = errors.lift_m(view.enu_from_camera.translation.z() - ground_height_above_home_m);
+  view.enu_from_camera.translation.z() += view.lifted_m;
+  return view;
+}
+
+}  // namespace
+
+OpeningLooks::OpeningLooks() {
+  frames_.reserve(kMostFrames);
+  sightings_.reserve(kMostSightings);
+}
+
+void OpeningLooks::begin_frame(FrameStamp stamp, const JointFrame& frame, double looks_that_share) {
+  if (frames_.size() == kMostFrames) is_open_ = false;
+  if (!is_open_) return;
+  frames_.push_back({stamp, std::nullopt, frame.time(), frame.span, frame.repetition, looks_that_share,
+                     sightings_.size(), sightings_.size()});
+}
+
+void OpeningLooks::add(std::uint64_t track_id, const Detection& detection) {
+  if (sightings_.size() == kMostSightings) is_open_ = false;
+  if (!is_open_) return;
+  sightings_.push_back({track_id, detection});
+  ++frames_.back().end;
+}
+
+void OpeningLooks::rename(std::uint64_t gone, std::uint64_t kept) {
+  if (!is_open_) return;
+  for (Sighting& sighting : sightings_) {
+    if (sighting.track_id == gone) sighting.track_id = kept;
+  }
+}
+
+void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& projector,
+                                  const LookMaker& maker, const SharedErrorEstimate& errors,
+                                  TrackTable& tracks) {
+  for (RestingObject& object : tracks) clear_sums(object);
+  for (Frame& frame : frames_) {
+    if (frame.begin == frame.end) continue;
+    if (const auto found = viewer.nominal_view(frame.stamp, errors.calibration.latency_s()))
+      frame.nominal_view = *found;
+    if (!frame.nominal_view) continue;
+    const FrameView view = with(errors, projector.config().ground_height_above_home_m, *frame.nominal_view);
+    linearise_anew(frame, view, projector, maker, errors, tracks);
+  }
+}
+
+void OpeningLooks::linearise_anew(const Frame& frame, const FrameView& view, const Projector& projector,
+                                  const LookMaker& maker, const SharedErrorEstimate& errors,
+                                  TrackTable& tracks) const {
+  const JointFrame as_before{projector, view, frame.span, errors.drift.at(frame.span), frame.repetition, 0.0};
+  for (std::size_t i = frame.begin; i < frame.end; ++i) {
+    const Sighting& sighting = sightings_[i];
+    RestingObject* const object = tracks.find(sighting.track_id);
+    if (object == nullptr || frame.time < object->sums_since) continue;
+    const auto fix = projector.project(sighting.detection.box.centre(), view.enu_from_camera);
+    if (!fix) continue;
+    const Look look = maker.make_look({sighting.detection, *fix}, frame.looks_that_share, as_before, errors);
+    add_look(*object, look, errors.drift);
+  }
+}
+
+}  // namespace geoloc
