@@ -19,6 +19,7 @@ cmake --build build/release --target geoloc_eval
 say "Evaluating"
 rm -rf build/results
 build/release/bin/geoloc_eval --known-points 2 --sweep all --report build/results >/dev/null
+build/release/bin/geoloc_eval --hills-m 1.5 --report build/results/hills >/dev/null
 for flight in stock_path1 stock_path2 stock_path3; do
   build/release/bin/geoloc_eval --flights none --seeds 0 --method joint --rendered --rendered-flight "$flight" \
     --report "build/results/$flight" >/dev/null
@@ -36,9 +37,10 @@ def blocks_of(report):
 
 
 blocks = blocks_of(folder / "report.md")
-rendered = [blocks_of(report)["rendered"] for report in sorted(folder.glob("*/report.md"))]
+rendered = [blocks_of(report)["rendered"] for report in sorted(folder.glob("stock_path*/report.md"))]
 head = rendered[0].splitlines(keepends=True)[:2]
 blocks["rendered"] = "".join(head + [row for block in rendered for row in block.splitlines(keepends=True)[2:]])
+blocks["hills"] = blocks_of(folder / "hills" / "report.md")["table"].split("\n\n")[0] + "\n"
 text, filled = re.subn(r"(<!-- begin (\w+) -->\n).*?(<!-- end \2 -->\n)",
                        lambda found: found[1] + blocks.pop(found[2]) + found[3], page.read_text(), flags=re.DOTALL)
 if blocks or not filled:
