@@ -11,6 +11,7 @@
 #include "common/stop_signal.hpp"
 #include "geoloc/io/atomic_file.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
+#include "geoloc/sim/flight/terrain.hpp"
 #include "geoloc/sim/live/flight_camera.hpp"
 #include "geoloc/sim/live/udp_vehicle.hpp"
 #include "geoloc/sim/rtsp/rtsp_camera.hpp"

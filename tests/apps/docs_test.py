@@ -41,9 +41,12 @@ def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
-def rows(page):
-    """The cells of every row of every table of a page, without emphasis."""
-    for line in page.read_text().splitlines():
+def rows(page, block=None):
+    """The cells of every row of every table of a page, or of a block that scripts/results.sh fills, without emphasis."""
+    text = page.read_text()
+    if block:
+        text = text[text.index(f"<!-- begin {block} -->"):text.index(f"<!-- end {block} -->")]
+    for line in text.splitlines():
         if line.startswith("| "):
             yield [cell.strip(" *") for cell in line.strip("|").split("|")]
 
@@ -107,7 +110,7 @@ class AccuracyFigures(unittest.TestCase):
 
     def setUp(self):
         self.measured = {}  # cells from RMSE to merged pairs, by set and method
-        for cells in rows(DOCS / "results.md"):
+        for cells in rows(DOCS / "results.md", "table"):
             if cells[0] in ("stock", "gnss"):
                 self.measured[cells[0], cells[1]] = cells[3:8]
         self.assertEqual(len(self.measured), 6)
@@ -139,10 +142,10 @@ class AccuracyFigures(unittest.TestCase):
         for (flights, method), (rmse, _, found, *_) in self.measured.items():
             figures[f"{flights} {method} rmse"] = float(rmse)
             figures[f"{flights} {method} found"], figures[f"{flights} {method} targets"] = map(int, found.split("/"))
-        sections = re.findall(r"^([\w ]+) \(usually .*\)\n\n((?:\|.*\n)+)", (DOCS / "results.md").read_text(), re.MULTILINE)
-        self.assertEqual(len(sections), 8)
+        sections = re.findall(r"^([\w\- ]+) \(usually .*\)\n\n((?:\|.*\n)+)", (DOCS / "results.md").read_text(), re.MULTILINE)
+        self.assertEqual(len(sections), 10)
         for sweep, table in sections:
-            for value, method, rmse, *_, nees in re.findall(r"^\| ([\d.]+) \| (\w+) \| ([\d.]+) \|.* ([\d.]+) \|$", table, re.MULTILINE):
+            for value, method, rmse, *_, nees in re.findall(r"^\| ([-\d.]+) \| (\w+) \| ([\d.]+) \|.* ([\d.]+) \|$", table, re.MULTILINE):
                 figures[f"{sweep} {value} {method} rmse"], figures[f"{sweep} {value} {method} nees"] = float(rmse), float(nees)
         return figures
 
