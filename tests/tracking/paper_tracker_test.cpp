@@ -41,7 +41,7 @@ class PaperTrackerLife : public ::testing::Test {
   PaperTrackerConfig config_;
   LocalFrame local_frame_{Geodetic{}};
   const StateProvider state_{StateConfig{}};
-  const CameraMount mount_;
+  const CameraMount mount_{};
   const FrameViewer viewer_{state_, mount_, CameraOrientation::kComposed};
   std::optional<PaperTracker> tracker_{std::in_place, config_, 64};
   HostTime now_{std::chrono::seconds{1000}};
