@@ -15,6 +15,19 @@ FrameView with(const SharedErrorEstimate& errors, double ground_height_above_hom
   return view;
 }
 
+/// Rays that met the ground may miss it at another calibration. An object that has none left stays about
+/// where it was, for its next look or for being missed: sums of nothing would leave no solution.
+void keep_in_place_without_looks(RestingObject& object) {
+  constexpr double kSigma_m = 10.0;
+  const bool has_looks = (object.pixel_information - object.prior.matrix).trace() > 0.0;
+  if (has_looks) return;
+  PointInformation about_here;
+  about_here.matrix = PointMatrix::Identity() / (kSigma_m * kSigma_m);
+  about_here.vector = about_here.matrix * object.position_in_enu;
+  object.landmark->add_prior(about_here);
+  object.pixel_information += about_here.matrix;
+}
+
 }  // namespace
 
 OpeningLooks::OpeningLooks() {
@@ -55,6 +68,7 @@ void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& pr
     const FrameView view = with(errors, projector.config().ground_height_above_home_m, *frame.nominal_view);
     linearise_anew(frame, view, projector, maker, errors, tracks);
   }
+  for (RestingObject& object : tracks) keep_in_place_without_looks(object);
 }
 
 void OpeningLooks::linearise_anew(const Frame& frame, const FrameView& view, const Projector& projector,

@@ -269,13 +269,14 @@ TEST_F(OpeningFrames, AreSeenFromWhereTheyWereOnceTheVehiclesStateIsKnownNoMore)
   EXPECT_EQ(looks_made_, 10);
 }
 
-TEST_F(OpeningFrames, SayNothingOfObjectsThatTheyDoNotShow) {
+TEST_F(OpeningFrames, SayOfObjectsThatTheyDoNotShowThatTheyAreAboutWhereTheyWere) {
   RestingObject& unseen = append(7);
   see(0.0, {1});  // gone since
   unseen.landmark->add_prior(testing::ground_at(9.0));
   linearise_anew();
   Landmark ground;
   ground.add_prior(testing::ground_at(0.4));
+  ground.add_prior({0.01 * PointMatrix::Identity(), 0.01 * unseen.position_in_enu});  // 10 m, 1 sigma
   expect_same(*unseen.landmark, ground);
 }
 
@@ -316,6 +317,20 @@ TEST_F(OpeningFrames, AreLeftOutWhereTheirRaysMeetNoGround) {
   set_calibration({2.5, 0.0, 0.0}, 0.1, 0.0);
   linearise_anew();
   EXPECT_EQ(tracks_[0].landmark->begin(), tracks_[0].landmark->end());
+}
+
+/// An object whose rays all miss the ground now is about where it was: it has a solution, and takes part in
+/// the others'.
+TEST_F(OpeningFrames, LeaveAnObjectInPlaceWhereNoneOfItsRaysMeetsTheGround) {
+  append(1);
+  for (double time_s = 0.0; time_s < 3.0; time_s += 1.0) see(time_s, {1}, {{640.0, 100.0}});
+  tracks_[0].position_in_enu = {12.0, -7.0, 0.5};
+  set_calibration({2.5, 0.0, 0.0}, 0.1, 0.0);
+  linearise_anew();
+  ASSERT_EQ(tracks_[0].landmark->begin(), tracks_[0].landmark->end());
+  const Point place = tracks_[0].landmark->position(errors_.calibration.mean, errors_.drift);
+  EXPECT_LT((place - Point(12.0, -7.0, 0.5)).head<2>().norm(), 1e-9);
+  EXPECT_TRUE(solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift));
 }
 
 TEST_F(OpeningFrames, AreAHundredAtMost) {
