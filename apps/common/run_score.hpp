@@ -25,8 +25,8 @@ Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth
 double mean_nees_of_run(const Session& session, const std::vector<io::TrueTarget>& truth, const Score& score,
                         const LeftOut& left_out = {});
 
-/// Of the objects that `score` matched; nullopt where the method estimates no heights, or none of them is
-/// true.
+/// Height errors of the objects that `score` matched; nullopt where the method estimates no heights, or no
+/// true height is known.
 std::optional<HeightScore> score_heights_of_run(const Session& session,
                                                 const std::vector<io::TrueTarget>& truth, const Score& score,
                                                 const LeftOut& left_out = {});

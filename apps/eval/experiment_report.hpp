@@ -29,8 +29,8 @@ struct Summary {
   int targets = 0;
   int extra = 0;
   int merged_pairs = 0;
-  double mean_nees = 0.0;
-  double mean_relative_height_rmse_m = 0.0;  ///< 2 where stated covariances are right
+  double mean_nees = 0.0;                    ///< 2 where stated covariances are right
+  double mean_relative_height_rmse_m = 0.0;  ///< 0 where the method estimates no heights
   // Estimated minus injected; 0 where the method estimates none.
   double worst_latency_error_s = 0.0;
   double worst_boresight_error_deg = 0.0;

@@ -51,8 +51,8 @@ struct SharedErrorEstimate {
   /// By how much a camera is to be lifted that reports to be so high above the level ground [m].
   double lift_m(double reported_height_above_ground_m) const;
 
-  /// Of the height, no more is taken to be unknown for telling looks apart than a share of it: the camera is
-  /// above the ground. (Were it not, all looks could be looks at one object.) The next solution undoes it.
+  /// Limits how far association takes the height to be unknown, to a share of the height itself: the camera
+  /// is above the ground. (Were it not, all looks could be looks at one object.) The next solution undoes it.
   void bound_height(double height_above_ground_m);
 
   /// Everything but the wandering's scale.

@@ -353,7 +353,7 @@ TEST_F(ArrowheadProblem, AnObjectKnownFromASurveyAloneHasThatCovariance) {
   surveyed.add_prior({covariance.inverse(), covariance.inverse() * position});
   const std::vector<const Landmark*> landmarks{&landmarks_[0], &landmarks_[1], &surveyed};
   const ArrowheadSolver::Solution solution = solve(solver_, landmarks);
-  // Of home, its height is known as well as the camera's is.
+  // Its height above home is known as well as the camera's is.
   const double height_of_home = std::pow(calibration_.sigma(CalibrationIndex::kHeight), 2);
   const PointMatrix above_home = Point(0.0, 0.0, height_of_home).asDiagonal().toDenseMatrix() + covariance;
   EXPECT_LT((solution.covariance(surveyed) - above_home).norm(), 1e-12);

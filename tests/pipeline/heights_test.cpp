@@ -149,7 +149,8 @@ TEST(JointHeights, HaveTheSigmaOfALineThroughTheLooks) {
   EXPECT_NEAR(flight.tracks()[0].height->sigma_m, sigma_m, 1e-3 * sigma_m);
 }
 
-/// Of what was seen along one ray, the height is the ground's, and home's is the camera's.
+/// An object that was seen along one ray has the ground's height, which home's height is told from by the
+/// camera's.
 TEST(JointHeights, OfAnObjectSeenFromOneSideAreAsUnsureAsTheGroundAndHome) {
   GeolocatorConfig config;
   NadirFlight flight(config, testing::hovering_at({0.0, 0.0, kHeight_m}));

@@ -52,7 +52,7 @@ inline std::optional<Eigen::Vector2d> pixel_of_point(const Eigen::Vector3d& plac
                          kPrincipalY_px - kFocal_px * along_nose / along_belly);
 }
 
-/// Of a ground point at height 0.
+/// Pixel of a ground point at height 0.
 inline std::optional<Eigen::Vector2d> pixel_of(const Eigen::Vector2d& place, const Pose& pose) {
   return pixel_of_point({place.x(), place.y(), 0.0}, pose);
 }

@@ -181,7 +181,7 @@ TEST_F(LooksFromAbove, ShowWhatIsHigherWhereItsRayMeetsTheGround) {
 }
 
 /// What the fix already holds of the calibration is undone in the sums' values; the offset was never in it.
-/// Of latency and height, that is what the view was located with, and not the estimate.
+/// The latency and height that count are those that the view was located with, not the estimate.
 TEST_F(LooksFromAbove, AreCorrectedByOffsetAndDrift) {
   errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.5, 0.7, -0.4;
   view_.latency_s = 0.08;

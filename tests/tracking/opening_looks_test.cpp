@@ -252,7 +252,7 @@ TEST_F(OpeningFrames, AreLeftOutWhereTheVehiclesStateWasNeverKnown) {
   }
 }
 
-/// Of frames taken seldom, the first are older than all that is kept of the vehicle's reports.
+/// The first of rarely taken frames are older than all that is kept of the vehicle's reports.
 TEST_F(OpeningFrames, AreSeenFromWhereTheyWereOnceTheVehiclesStateIsKnownNoMore) {
   RestingObject& object = append(1);
   for (double time_s = 0.0; time_s < 10.0; time_s += 1.0) see(time_s, {1});

@@ -9,7 +9,7 @@ namespace geoloc::sim {
 
 /// Height of the ground that targets stand on: waves of 30 to 80 m about a level.
 struct Terrain {
-  double hills_m = 0.0;             ///< amplitude of the waves; the height's standard deviation is 0.87 of it
+  double hills_m = 0.0;             ///< amplitude of the waves; the height's standard deviation is 0.88 of it
   double level_above_home_m = 0.0;  ///< of the whole ground: where the vehicle takes off elsewhere
 
   /// Every fault, named by its JSON path.
