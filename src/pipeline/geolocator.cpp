@@ -84,7 +84,6 @@ class Geolocator::Implementation {
   Counters counters;
 
  private:
-  FrameView calibrated(FrameView view) const;
   void select(const std::vector<Detection>& detections);
   void locate();
 
@@ -100,19 +99,13 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
     return false;
   }
   ++counters.frames_located;
-  view = calibrated(*nominal_view);
+  const double reported_m =
+      nominal_view->enu_from_camera.translation.z() - config.projector.ground_height_above_home_m;
+  view = calibrated(*nominal_view, tracker->calibration(), tracker->lift_m(reported_m));
   select(frame.detections);
   locate();
   tracker->update({located, projector, view, *state.local_frame(), stamp, viewer});
   return true;
-}
-
-FrameView Geolocator::Implementation::calibrated(FrameView nominal_view) const {
-  Rigid3d& pose = nominal_view.enu_from_camera;
-  nominal_view.lifted_m = tracker->lift_m(pose.translation.z() - config.projector.ground_height_above_home_m);
-  tracker->calibration().turn(pose);
-  pose.translation.z() += nominal_view.lifted_m;
-  return nominal_view;
 }
 
 void Geolocator::Implementation::select(const std::vector<Detection>& detections) {

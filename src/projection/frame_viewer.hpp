@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "geoloc/calibration/calibration.hpp"
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/geometry/expected.hpp"
 #include "geoloc/projection/ground_fix.hpp"
@@ -17,5 +18,8 @@ struct FrameViewer {
   /// The nominal pose, neither turned nor lifted. NoState: why there is none.
   Expected<FrameView, NoState> nominal_view(FrameStamp stamp, double latency_s) const;
 };
+
+/// The view turned by the boresight and lifted by `lift_m`.
+FrameView calibrated(FrameView nominal_view, const Calibration& calibration, double lift_m);
 
 }  // namespace geoloc

@@ -8,13 +8,6 @@ namespace {
 constexpr std::size_t kMostFrames = 100;
 constexpr std::size_t kMostSightings = 1000;
 
-FrameView with(const SharedErrorEstimate& errors, double ground_height_above_home_m, FrameView view) {
-  errors.calibration.turn(view.enu_from_camera);
-  view.lifted_m = errors.lift_m(view.enu_from_camera.translation.z() - ground_height_above_home_m);
-  view.enu_from_camera.translation.z() += view.lifted_m;
-  return view;
-}
-
 /// Rays that met the ground may miss it at another calibration. An object that has none left stays about
 /// where it was, for its next look or for being missed: sums of nothing would leave no solution.
 void keep_in_place_without_looks(RestingObject& object) {
@@ -65,7 +58,9 @@ void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& pr
     if (const auto found = viewer.nominal_view(frame.stamp, errors.calibration.latency_s()))
       frame.nominal_view = *found;
     if (!frame.nominal_view) continue;
-    const FrameView view = with(errors, projector.config().ground_height_above_home_m, *frame.nominal_view);
+    const double reported_m =
+        frame.nominal_view->enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
+    const FrameView view = calibrated(*frame.nominal_view, errors.calibration, errors.lift_m(reported_m));
     linearise_anew(frame, view, projector, maker, errors, tracks);
   }
   for (RestingObject& object : tracks) keep_in_place_without_looks(object);

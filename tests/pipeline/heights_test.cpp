@@ -16,6 +16,7 @@ namespace {
 using testing::box_at;
 using testing::kFocal_px;
 using testing::NadirFlight;
+using testing::noisy_by_the_detector_alone;
 using testing::Path;
 using testing::Pose;
 
@@ -23,22 +24,6 @@ constexpr double kHeight_m = 20.0;
 
 double noiseless() {
   return 0.0;
-}
-
-/// The vehicle and the camera are known, and nothing is left to learn but the objects.
-GeolocatorConfig noisy_by_the_detector_alone() {
-  GeolocatorConfig config;
-  JointTrackerConfig& joint = config.joint;
-  joint.prior.sigma_boresight_x_deg = joint.prior.sigma_boresight_y_deg = 0.0;
-  joint.prior.sigma_boresight_z_deg = joint.prior.sigma_latency_s = joint.prior.sigma_height_m = 0.0;
-  joint.drift.sigma_up_m = 1e-6;
-  joint.drift.sigma_yaw_deg = 1e-6;
-  joint.sigma_attitude_deg = 1e-6;
-  joint.sigma_time_s = 0.0;
-  joint.horizontal_accuracy_m = 1e-6;
-  joint.least_offset_sigma_m = 0.0;
-  joint.fast_share = 0.0;
-  return config;
 }
 
 /// A grid on ground that rises and falls.

@@ -23,18 +23,8 @@ constexpr double kMetresPerPixel = 20.0 / testing::kFocal_px;
 
 /// Nothing but the detector is noisy, and nothing is left to learn.
 GeolocatorConfig noisy_by_the_detector_alone() {
-  GeolocatorConfig config;
-  JointTrackerConfig& joint = config.joint;
-  joint.moving.classes = {kMovingClass, kOtherMovingClass};
-  joint.prior.sigma_boresight_x_deg = joint.prior.sigma_boresight_y_deg = 0.0;
-  joint.prior.sigma_boresight_z_deg = joint.prior.sigma_latency_s = joint.prior.sigma_height_m = 0.0;
-  joint.drift.sigma_up_m = 1e-6;
-  joint.drift.sigma_yaw_deg = 1e-6;
-  joint.sigma_attitude_deg = 1e-6;
-  joint.sigma_time_s = 0.0;
-  joint.horizontal_accuracy_m = 1e-6;
-  joint.least_offset_sigma_m = 0.0;
-  joint.fast_share = 0.0;
+  GeolocatorConfig config = testing::noisy_by_the_detector_alone();
+  config.joint.moving.classes = {kMovingClass, kOtherMovingClass};
   return config;
 }
 

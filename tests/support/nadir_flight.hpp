@@ -89,6 +89,23 @@ inline Path northwards(double speed_mps, double height_m = 20.0) {
   return [=](double time_s) { return Pose{{0.0, speed_mps * time_s, height_m}, 0.0, 0.0, 0.0}; };
 }
 
+/// The vehicle and the camera are known, only the detector is noisy, and nothing is left to learn but the
+/// objects.
+inline GeolocatorConfig noisy_by_the_detector_alone() {
+  GeolocatorConfig config;
+  JointTrackerConfig& joint = config.joint;
+  joint.prior.sigma_boresight_x_deg = joint.prior.sigma_boresight_y_deg = 0.0;
+  joint.prior.sigma_boresight_z_deg = joint.prior.sigma_latency_s = joint.prior.sigma_height_m = 0.0;
+  joint.drift.sigma_up_m = 1e-6;
+  joint.drift.sigma_yaw_deg = 1e-6;
+  joint.sigma_attitude_deg = 1e-6;
+  joint.sigma_time_s = 0.0;
+  joint.horizontal_accuracy_m = 1e-6;
+  joint.least_offset_sigma_m = 0.0;
+  joint.fast_share = 0.0;
+  return config;
+}
+
 /// A Geolocator that is told `reported` ten times a second, of a vehicle that is at `truth`. The origin of
 /// its frame is where the vehicle reports to be at time 0, which must be the east-north origin.
 class NadirFlight {
