@@ -414,9 +414,11 @@ TEST(Geolocator, DoesNotMindTheOrderOfDetections) {
 TEST(Geolocator, MakesOneObjectOfABoxHoweverOftenItIsListed) {
   Flight flight;
   std::vector<Detection> all_over;
-  for (int i = 0; i < 200; ++i) {
-    all_over.push_back(box_at({100.0 + 50.0 * (i % 20), 100.0 + 50.0 * (i / 20)}));
-    all_over.back().confidence = 0.95;
+  for (int row = 0; row < 10; ++row) {
+    for (int column = 0; column < 20; ++column) {
+      all_over.push_back(box_at({100.0 + 50.0 * column, 100.0 + 50.0 * row}));
+      all_over.back().confidence = 0.95;
+    }
   }
   flight.process(1.0, all_over);
   const Detection box = box_at({300.0, 200.0});
