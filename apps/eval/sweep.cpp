@@ -96,6 +96,15 @@ Sweep take_off() {
   return sweep;
 }
 
+/// White, or such as a filter leaves that its accelerometers correct within seconds.
+Sweep attitude_noise(const std::string& name, const std::string& title, double time_constant_s) {
+  Sweep sweep{name, title, "1-sigma of each angle, deg", false, {0.0, 0.3, 0.5, 1.0, 1.5}};
+  sweep.flight_at = [time_constant_s](const sim::Flight& flight, double value) {
+    return sim::with_attitude_noise(flight, {value, time_constant_s});
+  };
+  return sweep;
+}
+
 Sweep pairs() {
   Sweep sweep{"pairs", "Targets in pairs", "distance within a pair, m", true, {0.3, 0.5, 0.8, 1.2, 2.0, 3.0},
               1.2};
@@ -141,8 +150,18 @@ Sweep speed() {
 }  // namespace
 
 const std::vector<Sweep>& all_sweeps() {
-  static const std::vector<Sweep> sweeps{latency(),  boresight(), telemetry_rate(), height(),  hills(),
-                                         take_off(), pairs(),     misses(),         clutter(), speed()};
+  static const std::vector<Sweep> sweeps{latency(),
+                                         boresight(),
+                                         telemetry_rate(),
+                                         height(),
+                                         hills(),
+                                         take_off(),
+                                         attitude_noise("attitude", "Attitude noise, white", 0.0),
+                                         attitude_noise("attitude-slow", "Attitude noise over 4 s", 4.0),
+                                         pairs(),
+                                         misses(),
+                                         clutter(),
+                                         speed()};
   return sweeps;
 }
 

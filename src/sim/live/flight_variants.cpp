@@ -7,12 +7,14 @@
 #include <cmath>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/sim/flight/mavlink_frame.hpp"
 #include "geoloc/sim/live/recorded_streams.hpp"
+#include "geoloc/sim/random.hpp"
 
 namespace geoloc::sim {
 namespace {
@@ -197,6 +199,33 @@ Flight raised(const Flight& flight, double metres) {
     }
   }
   return {flight.name, log.build(), flight.truth.raised(metres), flight.booted_at};
+}
+
+Flight with_attitude_noise(const Flight& flight, const AttitudeNoise& noise) {
+  Random random(noise.seed);
+  Eigen::Vector3d error_rad(random.normal(), random.normal(), random.normal());
+  error_rad *= noise.sigma_deg * kRadPerDeg;
+  std::optional<HostTime> before;
+  LogBuilder log;
+  for (const io::TlogRecord& record : flight.telemetry.records()) {
+    const auto frame = view_frame(record.frame, record.size);
+    if (!frame || frame->message_id != MAVLINK_MSG_ID_ATTITUDE) {
+      log.add(record);
+      continue;
+    }
+    const double pause_s = before ? seconds(record.received_at - *before) : 0.0;
+    const double kept = before ? std::exp(-pause_s / std::max(noise.time_constant_s, 1e-9)) : 1.0;
+    const double renewed_rad = std::sqrt(1.0 - kept * kept) * noise.sigma_deg * kRadPerDeg;
+    error_rad =
+        kept * error_rad + renewed_rad * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    before = record.received_at;
+    auto fields = fields_in<mavlink_attitude_t>(*frame);
+    fields.roll += static_cast<float>(error_rad.x());
+    fields.pitch += static_cast<float>(error_rad.y());
+    fields.yaw = static_cast<float>(wrap_to_pi(fields.yaw + error_rad.z()));
+    log.add(record.received_at, *frame, payload_with(fields));
+  }
+  return {flight.name, log.build(), flight.truth, flight.booted_at};
 }
 
 Flight at_speed(const Flight& flight, double factor) {

@@ -121,6 +121,30 @@ TEST(FlightVariants, RaisingMovesTruthAndTelemetryTogetherAndKeepsTheSurvey) {
   EXPECT_EQ(flight.truth.survey().end, recorded.truth.survey().end);
 }
 
+class AddedNoise : public ::testing::TestWithParam<double> {};
+
+TEST_P(AddedNoise, HasTheSigmaAndTheTimeConstantAskedFor) {
+  constexpr double kSigma_deg = 1.2;
+  const Flight recorded = load("stock_path1");
+  const Heard before = hear(recorded);
+  const Heard heard = hear(with_attitude_noise(recorded, {kSigma_deg, GetParam(), 5}));
+  ASSERT_EQ(heard.attitudes.size(), before.attitudes.size());
+  double squares = 0.0, products = 0.0, last_rad = 0.0;
+  for (std::size_t i = 0; i < before.attitudes.size(); ++i) {
+    const double error_rad =
+        wrap_to_pi(heard.attitudes[i].angles.yaw_rad - before.attitudes[i].angles.yaw_rad);
+    squares += error_rad * error_rad;
+    products += error_rad * last_rad;
+    last_rad = error_rad;
+  }
+  const double pause_s = 0.1, kept = GetParam() > 0.0 ? std::exp(-pause_s / GetParam()) : 0.0;
+  EXPECT_NEAR(std::sqrt(squares / static_cast<double>(before.attitudes.size())) / kRadPerDeg, kSigma_deg,
+              0.2 * kSigma_deg);
+  EXPECT_NEAR(products / squares, kept, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(WhiteAndSlow, AddedNoise, ::testing::Values(0.0, 0.5, 4.0));
+
 class Speed : public ::testing::TestWithParam<double> {};
 
 TEST_P(Speed, DividesEveryTimeAndKeepsErrorsInMetres) {

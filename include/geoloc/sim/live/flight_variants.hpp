@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "geoloc/sim/flight/flight.hpp"
 
 namespace geoloc::sim {
@@ -10,6 +12,16 @@ namespace geoloc::sim {
 
 /// So much higher above the ground [m].
 Flight raised(const Flight& flight, double metres);
+
+/// What an attitude filter is off by, besides what was recorded: first-order Gauss-Markov in each angle.
+struct AttitudeNoise {
+  double sigma_deg = 0.0;
+  double time_constant_s = 0.0;  ///< 0: white, from message to message
+  std::uint64_t seed = 1;
+};
+
+/// ATTITUDE with noise added to each angle; the truth stays.
+Flight with_attitude_noise(const Flight& flight, const AttitudeNoise& noise);
 
 /// The same path `factor` times as fast, with the tilts as recorded: a real vehicle would tilt more.
 /// Telemetry comes `factor` times as often. factor must be > 0.
