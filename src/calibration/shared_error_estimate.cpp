@@ -37,10 +37,12 @@ double PositionAccuracy::offset_sigma_m(double wandering_scale) const {
 }
 
 SharedErrorEstimate::SharedErrorEstimate(const PositionAccuracy& reported, const HeightPrior& expected_height,
-                                         const DriftConfig& drift_config, const ArrowheadSolver& solver)
+                                         const NoiseEstimate& expected_noise, const DriftConfig& drift_config,
+                                         const ArrowheadSolver& solver)
     : accuracy(reported),
       drift(drift_config),
       height_prior(expected_height),
+      noise(expected_noise),
       calibration(solver.prior(
           {expected_height.mean_m, expected_height.sigma_at(expected_height.mean_m), offset_sigma_m()})),
       calibration_root(root_of(calibration)),

@@ -6,6 +6,7 @@
 #include "calibration/arrowhead.hpp"
 #include "calibration/drift.hpp"
 #include "calibration/height_prior.hpp"
+#include "calibration/noise_estimate.hpp"
 #include "calibration/shared_error.hpp"
 #include "geoloc/calibration/calibration.hpp"
 
@@ -32,6 +33,7 @@ struct SharedErrorEstimate {
   PositionAccuracy accuracy;
   DriftTimeline drift;
   HeightPrior height_prior;
+  NoiseEstimate noise;
   Calibration calibration;
   /// Roots of the covariances, C = R R', of calibration and newest node: they whiten Jacobians.
   SharedError::CalibrationMatrix calibration_root;
@@ -39,7 +41,8 @@ struct SharedErrorEstimate {
 
   /// Before anything was seen.
   SharedErrorEstimate(const PositionAccuracy& reported, const HeightPrior& height_prior,
-                      const DriftConfig& drift_config, const ArrowheadSolver& solver);
+                      const NoiseEstimate& noise, const DriftConfig& drift_config,
+                      const ArrowheadSolver& solver);
 
   double offset_sigma_m() const { return accuracy.offset_sigma_m(drift.position_scale()); }
 

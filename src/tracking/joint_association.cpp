@@ -5,14 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geoloc/geometry/angles.hpp"
 #include "tracking/gaussian.hpp"
 
 namespace geoloc {
 namespace {
 
-/// Cost of a look that shows no known track, in the units of a squared distance plus the logarithm of its
-/// covariance's determinant: -2 ln(2 pi density), where objects not known yet stand one to 100 m^2.
-constexpr double kCostAlone = 5.53;
+/// Objects not known yet stand one to 100 m^2 where nothing else is said.
+constexpr double kUsualDensityOfNew = 0.01;
 /// Explanations tried of one frame.
 constexpr std::size_t kMostHypotheses = 32;
 /// A look may as well be of something new where leaving it alone costs less than this more: less than the
@@ -22,6 +22,12 @@ constexpr double kAmbiguityAlone = 2.0;
 constexpr int kRounds = 2;
 /// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.
 constexpr std::size_t kPairingsPerLook = 16;
+
+/// Cost of a look that shows no known track, in the units of a squared distance plus the logarithm of its
+/// covariance's determinant.
+double cost_alone(double density_of_new) {
+  return -2.0 * std::log(2.0 * kPi * density_of_new);
+}
 
 /// Covariance of a pair's residual, where the shared error has that covariance. lazyProduct: Eigen takes
 /// matrices of this size for large ones, and packs them first.
@@ -41,6 +47,7 @@ JointAssociation::JointAssociation(int max_looks, int max_tracks) {
   pairings_.reserve(kPairingsPerLook * max_looks);
   pairings_of_look_.reserve(max_looks);
   least_cost_of_look_.reserve(max_looks);
+  cost_alone_of_look_.reserve(max_looks);
   column_of_track_.assign(max_tracks, kNone);
   track_of_column_.reserve(max_tracks);
   pairings_of_column_.reserve(max_tracks);
@@ -58,10 +65,15 @@ void JointAssociation::begin(std::size_t looks, double gate, double ambiguity) {
   pairings_.clear();
   pairings_of_look_.assign(looks, 0);
   least_cost_of_look_.assign(looks, gate);
+  cost_alone_of_look_.assign(looks, cost_alone(kUsualDensityOfNew));
   for (const std::size_t track : track_of_column_) column_of_track_[track] = kNone;
   track_of_column_.clear();
   pairings_of_column_.clear();
   hypothesis_count_ = 0;
+}
+
+void JointAssociation::expect_new(std::size_t look, double density) {
+  cost_alone_of_look_[look] = cost_alone(density);
 }
 
 void JointAssociation::add(const Pairing& pairing) {
@@ -98,7 +110,8 @@ void JointAssociation::Posterior::add(const Pairing& pairing) {
 
 /// A look with one track, but not near it: it may be of something new.
 bool JointAssociation::is_doubtful(std::size_t look) const {
-  return pairings_of_look_[look] > 0 && least_cost_of_look_[look] > kCostAlone - kAmbiguityAlone;
+  return pairings_of_look_[look] > 0 &&
+         least_cost_of_look_[look] > cost_alone_of_look_[look] - kAmbiguityAlone;
 }
 
 /// No look has a choice, and no track.
@@ -144,9 +157,11 @@ void JointAssociation::explain(const Pairing* start, std::size_t look_left_alone
       if (pairing != kNone) posterior.add(pairings_[pairing]);
     }
   }
-  const auto alone = std::count(hypothesis.pairing_of_look.begin(), hypothesis.pairing_of_look.end(), kNone);
   hypothesis.posterior = posterior;
-  hypothesis.cost = posterior.cost + kCostAlone * static_cast<double>(alone);
+  hypothesis.cost = posterior.cost;
+  for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
+    if (hypothesis.pairing_of_look[look] == kNone) hypothesis.cost += cost_alone_of_look_[look];
+  }
   if (look_left_alone != kNone) hypothesis.cost += ambiguity_ - kAmbiguityAlone;
 }
 
@@ -185,14 +200,29 @@ void JointAssociation::report_best() {
           match.is_ambiguous || (other.cost < best.cost + ambiguity_ && track_of(other, i) != match.track);
     }
     if (!match.track) continue;
-    const Pairing& pairing = pairings_[best.pairing_of_look[i]];
+    match.pairing = best.pairing_of_look[i];
+    const Pairing& pairing = pairings_[match.pairing];
     match.innovation = pairing.residual - pairing.jacobian * best.posterior.mean;
     match.innovation_covariance = residual_covariance(pairing, best.posterior.covariance);
   }
 }
 
-JointAssociation::Match JointAssociation::match_of(const Pairing& pairing) {
-  return {pairing.track, false, pairing.residual, prior_covariance(pairing)};
+JointAssociation::Match JointAssociation::match_of(const Pairing& pairing) const {
+  const auto index = static_cast<std::size_t>(&pairing - pairings_.data());
+  return {pairing.track, index, false, pairing.residual, prior_covariance(pairing)};
+}
+
+double JointAssociation::cost() const {
+  Posterior posterior;
+  double alone = 0.0;
+  for (std::size_t look = 0; look < matches_.size(); ++look) {
+    if (matches_[look].track) {
+      posterior.add(pairings_[matches_[look].pairing]);
+    } else {
+      alone += cost_alone_of_look_[look];
+    }
+  }
+  return posterior.cost + alone;
 }
 
 const std::vector<JointAssociation::Match>& JointAssociation::solve() {

@@ -30,6 +30,7 @@ class JointAssociation {
  public:
   struct Match {
     std::optional<std::size_t> track;  ///< nullopt: the look shows none of them
+    std::size_t pairing = 0;           ///< index into pairings(), where there is a track
     /// Another explanation of the frame, about as good, says otherwise: best learn nothing from this look.
     bool is_ambiguous = false;
     Eigen::Vector2d innovation;
@@ -45,8 +46,14 @@ class JointAssociation {
   /// worse, in the same units, an explanation may be to be held possible.
   void begin(std::size_t looks, double gate, double ambiguity);
 
+  /// Objects not known yet that stand where the look falls, per area [1/m^2].
+  void expect_new(std::size_t look, double density);
+
   /// A pair that may belong together; those beyond the gate by themselves are dropped.
   void add(const Pairing& pairing);
+
+  /// Of the explanation found by solve(): -2 ln of its probability density, but for a constant.
+  double cost() const;
 
   /// One match per look. Where no look has a choice, each goes to its track, which is a good deal faster.
   const std::vector<Match>& solve();
@@ -61,7 +68,7 @@ class JointAssociation {
   int looks_at(std::size_t track) const { return pairings_of_column_[column_of_track_[track]]; }
 
   /// That pair, by itself: nothing is known of the shared error yet.
-  static Match match_of(const Pairing& pairing);
+  Match match_of(const Pairing& pairing) const;
 
  private:
   /// Shared error given some pairs.
@@ -97,6 +104,7 @@ class JointAssociation {
   std::vector<Pairing> pairings_;
   std::vector<int> pairings_of_look_;  // how many
   std::vector<double> least_cost_of_look_;
+  std::vector<double> cost_alone_of_look_;
   std::vector<std::size_t> column_of_track_;  // kNone where it is in no pair
   std::vector<std::size_t> track_of_column_;
   std::vector<int> pairings_of_column_;

@@ -52,7 +52,8 @@ struct JointFrame {
   NodeSpan span;     ///< drift nodes around the frame's time
   NodeVector drift;  ///< estimate at that time
   NoiseRepetition repetition;
-  double ground_height_m;  ///< of the level ground above home, in the lifted view, before the calibration
+  double ground_height_m;    ///< of the level ground above home, in the lifted view, before the calibration
+  double clutter_per_frame;  ///< false boxes
 
   VehicleTime time() const { return view.vehicle.time; }
 };

@@ -22,6 +22,9 @@ constexpr double kLeastAccuracy_m = 0.02, kMostAccuracy_m = 100.0;
 /// A known point that is nearer to the image's edge is not covered; share of the image's height.
 constexpr double kCoverMargin = 0.1;
 
+/// A confirmed object that exists less probably is not reported any more, until it is confirmed anew.
+constexpr double kRetracted = 0.5;
+
 JointTrackerConfig checked(const JointTrackerConfig& config) {
   throw_if_any(config.problems());
   return config;
@@ -55,13 +58,14 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
                            int max_detections)
     : config_(checked(config)),
       solver_(config.prior, config.drift.max_nodes),
-      errors_(accuracy_of(config), {config.prior.height_m, config.prior.sigma_height_m}, config.drift,
-              solver_),
+      errors_(accuracy_of(config), {config.prior.height_m, config.prior.sigma_height_m},
+              NoiseEstimate(config.sigma_attitude_deg * kRadPerDeg), config.drift, solver_),
       noise_clock_(config.fast_time_constant_s, config.attitude_time_constant_s),
       schedule_(config.solve_period_s),
       look_maker_(config_, max_detections),
       look_matcher_(config_, max_detections),
       detection_rate_(config.detection_probability),
+      clutter_rate_(config.clutter_per_frame),
       known_points_(std::move(known_points), config.max_tracks),
       tracks_(config.max_tracks),
       moving_(config_, max_detections) {
@@ -83,7 +87,8 @@ void JointTracker::update(const LocatedFrame& located) {
   const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
-  const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, frame.time(), tracks_);
+  const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
+  learn_noise(looks.at_rest, explanation);
   const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift,
                          frame.ground_height_m - errors_.calibration.height_m()};
 
@@ -120,6 +125,7 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
     bound_height(located.projector, located.view);
   }
   schedule_.count_frame();
+  clutter_rate_.count_frame();
   tracks_.clear_evidence();
   DriftTimeline& drift = errors_.drift;
   const NodeSpan span = drift.cover(vehicle.time, errors_.accuracy.wandering_sigma_m());
@@ -128,8 +134,27 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
     for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
     drift.freeze_oldest();
   }
-  return {located.projector, located.view, span, drift.at(span), noise_clock_.tick(vehicle.time),
-          ground_height_m};
+  return {located.projector,
+          located.view,
+          span,
+          drift.at(span),
+          noise_clock_.tick(vehicle.time),
+          ground_height_m,
+          clutter_rate_.per_frame()};
+}
+
+void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation& explanation) {
+  errors_.noise.begin_frame();
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const JointAssociation::Match& match = explanation.match_of_look[i];
+    if (!match.is_certain() || tracks_[*match.track].track.hits < kHitsToCompare) continue;
+    const Pairing& pairing = look_matcher_.pairing_of(match);
+    SharedError::Row known_in_part = pairing.jacobian;
+    known_in_part.middleCols<2>(SharedError::kFrame).setZero();
+    errors_.noise.add({pairing.residual, looks[i].observation.calibration_jacobian.leftCols<3>(),
+                       pairing.own_covariance, known_in_part * known_in_part.transpose()});
+  }
+  errors_.noise.learn_from_frame(fast_position_variance_m2(config_, errors_));
 }
 
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {
@@ -165,7 +190,8 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
       continue;
     }
     RestingObject& track = tracks_.append();
-    begin_object(track, config_.birth_probability, frame.view.captured_at_host, book_);
+    begin_object(track, clutter_rate_.birth_probability(config_.birth_probability),
+                 frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
     track.prior = level_ground(config_.sigma_ground_m);
     begin_sums(track, looks[i], errors_);
@@ -178,7 +204,9 @@ void JointTracker::remove_improbable() {
   for (std::size_t k = tracks_.size(); k-- > 0;) {
     Track& track = tracks_[k].track;
     track.existence = tracks_[k].existence.probability();
+    if (*track.existence < kRetracted) track.status = TrackStatus::kTentative;
     if (*track.existence >= config_.delete_probability) continue;
+    if (!tracks_[k].is_confirmed()) clutter_rate_.count_false(track.hits);
     known_points_.forget(track.id);
     tracks_.remove(k);
     ++book_.counters.removed;

@@ -8,6 +8,7 @@
 #include "calibration/arrowhead.hpp"
 #include "calibration/shared_error_estimate.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
+#include "tracking/clutter_rate.hpp"
 #include "tracking/detection_rate.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/known_point_matcher.hpp"
@@ -45,6 +46,7 @@ class JointTracker final : public Tracker {
 
   void bound_height(const Projector& projector, const FrameView& view);
   JointFrame begin_frame(const LocatedFrame& frame);
+  void learn_noise(const std::vector<Look>& looks, const Explanation& explanation);
   void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
   void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
                       const JointFrame& frame);
@@ -67,6 +69,7 @@ class JointTracker final : public Tracker {
   LookMaker look_maker_;
   LookMatcher look_matcher_;
   DetectionRate detection_rate_;
+  ClutterRate clutter_rate_;
   KnownPointMatcher known_points_;
   TrackTable tracks_;
   OpeningLooks opening_looks_;

@@ -34,6 +34,7 @@ struct Look {
   }
 
   double camera_height_m = std::numeric_limits<double>::infinity();  ///< above the level ground
+  double one_per_image = 0.0;    ///< density of one point in an image, on the ground there [1/m^2]
   double clutter_density = 0.0;  ///< false boxes per frame and area [1/m^2]
   double ground_per_pixel_m = 0.0;
   double size_m = 0.0;

@@ -41,10 +41,10 @@ Noise noise_of(const FixJacobians& jacobians, const JointTrackerConfig& config,
                const SharedErrorEstimate& errors) {
   const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
   const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
-  const double position_scale = config.fast_share * errors.drift.position_scale() * errors.accuracy.radial_m;
+  const double position_variance = errors.noise.position_factor() * fast_position_variance_m2(config, errors);
   return {std::pow(config.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose(),
-          std::pow(config.sigma_attitude_deg * kRadPerDeg, 2) * turn * turn.transpose(),
-          std::pow(position_scale, 2) / 2.0 * Eigen::Matrix2d::Identity()};
+          errors.noise.attitude_variance_rad2() * turn * turn.transpose(),
+          position_variance * Eigen::Matrix2d::Identity()};
 }
 
 /// The calibration that the fix already holds: all but the offset.
@@ -60,6 +60,10 @@ CalibrationVector applied(const Calibration& calibration, const FrameView& view)
 
 bool is_of_moving_class(const Detection& detection, const MovingConfig& moving) {
   return std::find(moving.classes.begin(), moving.classes.end(), detection.class_id) != moving.classes.end();
+}
+
+double fast_position_variance_m2(const JointTrackerConfig& config, const SharedErrorEstimate& errors) {
+  return 0.5 * std::pow(config.fast_share * errors.accuracy.radial_m, 2);
 }
 
 LookMaker::LookMaker(const JointTrackerConfig& config, int max_detections) : config_(config) {
@@ -103,7 +107,8 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
 
   Look look;
   look.detection = located.detection;
-  look.pixel_noise = fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
+  look.pixel_noise =
+      errors.noise.pixel_factor() * fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
   look.frame_noise = noise.attitude + noise.position;
   look.observation.value =
       fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
@@ -123,8 +128,8 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * jacobians.calibration.col(Index::kLatency);
   const CameraIntrinsics& camera = projector.camera().intrinsics();
   const double ground_per_pixel_m2 = std::abs(fix.ground_from_pixel.determinant());
-  look.clutter_density =
-      config_.clutter_per_frame / (ground_per_pixel_m2 * camera.width_px * camera.height_px);
+  look.one_per_image = 1.0 / (ground_per_pixel_m2 * camera.width_px * camera.height_px);
+  look.clutter_density = frame.clutter_per_frame * look.one_per_image;
   look.ground_per_pixel_m = std::sqrt(ground_per_pixel_m2);
   look.size_m = look.ground_per_pixel_m * std::min(located.detection.box.width, located.detection.box.height);
   return look;

@@ -10,6 +10,9 @@
 
 namespace geoloc {
 
+/// Of the position from second to second, per axis, as the reported accuracy lets expect [m^2].
+double fast_position_variance_m2(const JointTrackerConfig& config, const SharedErrorEstimate& errors);
+
 bool is_of_moving_class(const Detection& detection, const MovingConfig& moving);
 
 /// What a frame's detections say, as looks.

@@ -11,6 +11,11 @@ namespace {
 
 /// What the looks of one frame may differ in where the camera stands: by the drift of the yaw, a little.
 constexpr double kReachMargin = 1.1;
+/// Objects not known yet that an image shows.
+constexpr double kNewPerImage = 1.0;
+/// A shaken frame: how much farther its noise reaches, what that costs as an explanation (one frame in
+/// twenty, in units of a squared distance), and what each object costs that is missed without it (-2 ln 0.1).
+constexpr double kShake = 4.0, kCostOfShake = 6.0, kCostMissed = 4.6;
 
 double median(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -56,14 +61,41 @@ LookMatcher::LookMatcher(const JointTrackerConfig& config, int max_detections)
 }
 
 const Explanation& LookMatcher::explain(const std::vector<Look>& looks, const FrameNoise& noise,
-                                        VehicleTime now, TrackTable& tracks) {
-  association_.begin(looks.size(), config_.gate, config_.ambiguity);
-  add_pairings(looks, noise, now, tracks);
-  explanation_.match_of_look = association_.solve();
+                                        TrackTable& tracks) {
+  associate(looks, noise, 1.0, tracks);
+  if (tracks.size() > 0 && looks_alone() > 0) consider_shake(looks, noise, tracks);
   prefer_older_twins(tracks);
   explanation_.common_shift = common_shift(looks, tracks);
   note_evidence(tracks);
   return explanation_;
+}
+
+void LookMatcher::associate(const std::vector<Look>& looks, const FrameNoise& noise, double shake,
+                            const TrackTable& tracks) {
+  association_.begin(looks.size(), config_.gate, config_.ambiguity);
+  for (std::size_t i = 0; i < looks.size(); ++i)
+    association_.expect_new(i, kNewPerImage * looks[i].one_per_image);
+  add_pairings(looks, noise, shake, tracks);
+  explanation_.match_of_look = association_.solve();
+}
+
+int LookMatcher::looks_alone() const {
+  const auto& matches = explanation_.match_of_look;
+  return static_cast<int>(
+      std::count_if(matches.begin(), matches.end(), [](const auto& match) { return !match.track; }));
+}
+
+/// A frame that is off by more than the noise known so far shows none of the objects where it should. That it
+/// was shaken is the better explanation then than new objects beside all of the old ones, which it misses;
+/// the noise learns from it.
+void LookMatcher::consider_shake(const std::vector<Look>& looks, const FrameNoise& noise,
+                                 const TrackTable& tracks) {
+  const int calm_alone = looks_alone();
+  const double calm_cost = association_.cost();
+  associate(looks, noise, kShake, tracks);
+  const int more_seen = calm_alone - looks_alone();
+  const double shaken_cost = association_.cost() + kCostOfShake - kCostMissed * more_seen;
+  if (more_seen <= 0 || !(shaken_cost < calm_cost)) associate(looks, noise, 1.0, tracks);
 }
 
 /// The looks of a frame share the camera's place: where it shows a track, and along what slope, any of them
@@ -85,13 +117,13 @@ void LookMatcher::list_reaches(const Look& any_look, const TrackTable& tracks,
 /// All tracks that a look may show; those that are farther than the trace of the covariance allows are not
 /// looked at closely. What moves the mean height moves a track along its ray, by a share of its distance
 /// from the look: (s + a d)^2 <= 2 s^2 + 2 a^2 d^2.
-void LookMatcher::add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, VehicleTime now,
+void LookMatcher::add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, double shake,
                                const TrackTable& tracks) {
   if (looks.empty()) return;
   const HeightRow mean_of_heights = mean_height_sensitivity(tracks);
   const SharedError::Row mean_of_looks = mean_jacobian(looks, mean_of_heights);
   list_reaches(looks.front(), tracks, mean_of_looks, mean_of_heights);
-  const double frame_variance = noise.covariance.trace();
+  const double frame_variance = (1.0 + shake * shake) * noise.covariance.trace();
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const Look& look = looks[i];
     const double shared_by_look_m = (jacobian_at(look, mean_of_heights) - mean_of_looks).norm();
@@ -104,7 +136,7 @@ void LookMatcher::add_pairings(const std::vector<Look>& looks, const FrameNoise&
       const double variance = variance_of_look + track.own_variance + 2.0 * shared_m * shared_m;
       const double squared_distance = (look.position - track.shown).squaredNorm();
       if (!(share * squared_distance < kReachMargin * config_.gate * variance)) continue;
-      Pairing pair = pairing(look, tracks[k], noise, now);
+      Pairing pair = pairing(look, tracks[k], noise, shake);
       pair.look = i;
       pair.track = k;
       association_.add(pair);
@@ -112,20 +144,18 @@ void LookMatcher::add_pairings(const std::vector<Look>& looks, const FrameNoise&
   }
 }
 
-/// Frames within a second share most of their noise: it cancels between a look and a track that was seen just
-/// now, and a track seen for a short time only has it whole.
+/// A track seen for a short time only has the noise of its frames whole.
 Pairing LookMatcher::pairing(const Look& look, const RestingObject& track, const FrameNoise& noise,
-                             VehicleTime now) const {
+                             double shake) const {
   const double share = noise.share_in_track(track.track.hits);
-  const double fresh = 1.0 - share * noise.common_share(now - track.last_look);
   Pairing pairing;
   const Eigen::Vector2d shown = look.shown(track.position_in_enu);
   const Eigen::Matrix<double, 2, kPointSize> H = LandmarkObservation::point_jacobian_of(look.slope_at(shown));
   pairing.residual = look.position - shown;
   pairing.jacobian = look.jacobian - H * track.sensitivity;
-  pairing.jacobian.middleCols<2>(SharedError::kFrame) *= std::sqrt(fresh);
+  pairing.jacobian.middleCols<2>(SharedError::kFrame) *= shake;
   pairing.own_covariance =
-      look.pixel_noise + H * track.pixel_covariance * H.transpose() + fresh * share * noise.covariance;
+      look.pixel_noise + H * track.pixel_covariance * H.transpose() + share * noise.covariance;
   pairing.penalty = look.detection.class_id == track.track.class_id() ? 0.0 : config_.class_mismatch_cost;
   return pairing;
 }
@@ -137,8 +167,7 @@ void LookMatcher::prefer_older_twins(const TrackTable& tracks) {
   std::vector<JointAssociation::Match>& matches = explanation_.match_of_look;
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (!matches[i].is_ambiguous) continue;
-    if (const Pairing* const oldest = oldest_twin(i, tracks))
-      matches[i] = JointAssociation::match_of(*oldest);
+    if (const Pairing* const oldest = oldest_twin(i, tracks)) matches[i] = association_.match_of(*oldest);
   }
 }
 

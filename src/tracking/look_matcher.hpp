@@ -27,8 +27,12 @@ class LookMatcher {
 
   /// Explains the looks and notes in the tracks what they are evidence of. The reference holds until the next
   /// call.
-  const Explanation& explain(const std::vector<Look>& looks, const FrameNoise& noise, VehicleTime now,
-                             TrackTable& tracks);
+  const Explanation& explain(const std::vector<Look>& looks, const FrameNoise& noise, TrackTable& tracks);
+
+  /// The pair that a look of the last frame was explained by.
+  const Pairing& pairing_of(const JointAssociation::Match& match) const {
+    return association_.pairings()[match.pairing];
+  }
 
  private:
   using HeightRow = Eigen::Matrix<double, 1, SharedError::kSize>;
@@ -40,12 +44,15 @@ class LookMatcher {
     double shared_m;        // distance of its Jacobian from the looks' mean one
   };
 
-  void add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, VehicleTime now,
+  void associate(const std::vector<Look>& looks, const FrameNoise& noise, double shake,
+                 const TrackTable& tracks);
+  void consider_shake(const std::vector<Look>& looks, const FrameNoise& noise, const TrackTable& tracks);
+  int looks_alone() const;
+  void add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, double shake,
                     const TrackTable& tracks);
   void list_reaches(const Look& any_look, const TrackTable& tracks, const SharedError::Row& mean_of_looks,
                     const HeightRow& mean_of_heights);
-  Pairing pairing(const Look& look, const RestingObject& track, const FrameNoise& noise,
-                  VehicleTime now) const;
+  Pairing pairing(const Look& look, const RestingObject& track, const FrameNoise& noise, double shake) const;
   void prefer_older_twins(const TrackTable& tracks);
   const Pairing* oldest_twin(std::size_t look, const TrackTable& tracks) const;
   Eigen::Vector2d common_shift(const std::vector<Look>& looks, const TrackTable& tracks);

@@ -69,7 +69,8 @@ void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& pr
 void OpeningLooks::linearise_anew(const Frame& frame, const FrameView& view, const Projector& projector,
                                   const LookMaker& maker, const SharedErrorEstimate& errors,
                                   TrackTable& tracks) const {
-  const JointFrame as_before{projector, view, frame.span, errors.drift.at(frame.span), frame.repetition, 0.0};
+  const JointFrame as_before{projector,        view, frame.span, errors.drift.at(frame.span),
+                             frame.repetition, 0.0,  0.0};
   for (std::size_t i = frame.begin; i < frame.end; ++i) {
     const Sighting& sighting = sightings_[i];
     RestingObject* const object = tracks.find(sighting.track_id);

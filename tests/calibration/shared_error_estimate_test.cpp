@@ -8,6 +8,8 @@
 #include <random>
 #include <utility>
 
+#include "calibration/noise.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -56,7 +58,7 @@ class SharedErrors : public ::testing::Test {
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
   PositionAccuracy accuracy_{1.0, 0.2, 0.02};
   HeightPrior height_prior_{0.4, 1.5};
-  SharedErrorEstimate estimate_{accuracy_, height_prior_, DriftConfig{}, solver_};
+  SharedErrorEstimate estimate_{accuracy_, height_prior_, testing::kNoise, DriftConfig{}, solver_};
   FlightPrior prior_ = estimate_.prior();  // of every solution, so that all are the same
   Landmark landmarks_[2];
 };
@@ -73,7 +75,7 @@ TEST(FrozenSharedErrors, HaveARootBesideTheOthers) {
   CalibrationPrior prior;
   prior.sigma_boresight_y_deg = 0.0;
   const ArrowheadSolver solver(prior, DriftConfig{}.max_nodes);
-  const SharedErrorEstimate estimate({1.0, 0.2, 0.02}, {0.0, 2.0}, DriftConfig{}, solver);
+  const SharedErrorEstimate estimate({1.0, 0.2, 0.02}, {0.0, 2.0}, testing::kNoise, DriftConfig{}, solver);
   EXPECT_NEAR(estimate.calibration_root(Index::kBoresight + 1, Index::kBoresight + 1), 0.0, 1e-8);
   for (const int free : {Index::kBoresight, Index::kBoresight + 2, Index::kLatency, Index::kHeight})
     EXPECT_NEAR(estimate.calibration_root(free, free), estimate.calibration.sigma(free), 1e-9);
@@ -115,7 +117,7 @@ TEST_F(SharedErrors, ThatAreExactlyKnownAreNoReasonToFail) {
   CalibrationPrior prior;
   prior.sigma_latency_s = prior.sigma_height_m = 0.0;
   const ArrowheadSolver solver(prior, 10);
-  SharedErrorEstimate estimate(accuracy_, {3.0, 0.0}, DriftConfig{}, solver);
+  SharedErrorEstimate estimate(accuracy_, {3.0, 0.0}, testing::kNoise, DriftConfig{}, solver);
   EXPECT_TRUE(estimate.calibration_root.allFinite());
   EXPECT_TRUE(estimate.drift_root.allFinite());
   EXPECT_NEAR(estimate.lift_m(30.0), 3.0, 1e-9);

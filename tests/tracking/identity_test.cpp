@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "calibration/noise.hpp"
 #include "tracking/resting_objects.hpp"
 
 namespace geoloc {
@@ -36,8 +37,8 @@ class TwoTracks : public ::testing::Test {
 
   JointTrackerConfig config_;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
-                              solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+                              DriftConfig{}, solver_};
   TrackTable tracks_{10};
   FrameNoise noise_{0.09 * Eigen::Matrix2d::Identity(), 5.0, 1.0};
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "calibration/linearize.hpp"
+#include "calibration/noise.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/projection/projector.hpp"
 
@@ -54,7 +55,7 @@ class LooksFromAbove : public ::testing::Test {
 
   FrameLooks make(const std::vector<LocatedDetection>& detections) {
     LookMaker maker(config_, 20);
-    const JointFrame frame{projector_, view_, span_, drift_, repetition_, 0.0};
+    const JointFrame frame{projector_, view_, span_, drift_, repetition_, 0.0, config_.clutter_per_frame};
     return maker.make(detections, frame, errors_);
   }
 
@@ -69,7 +70,7 @@ class LooksFromAbove : public ::testing::Test {
   PositionAccuracy accuracy_{0.8, 0.2, 0.02};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
   HeightPrior height_prior_{0.0, 2.0};
-  SharedErrorEstimate errors_{accuracy_, height_prior_, DriftConfig{}, solver_};
+  SharedErrorEstimate errors_{accuracy_, height_prior_, testing::kNoise, DriftConfig{}, solver_};
   NodeSpan span_{};
   NodeVector drift_ = NodeVector::Zero();
   NoiseRepetition repetition_{5.0, 3.0};

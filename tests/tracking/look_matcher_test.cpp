@@ -8,6 +8,7 @@
 #include <cmath>
 #include <random>
 
+#include "calibration/noise.hpp"
 #include "tracking/resting_objects.hpp"
 
 namespace geoloc {
@@ -42,7 +43,7 @@ class MatchedLooks : public ::testing::Test {
     }
     tracks_.clear_evidence();
     noise_.covariance = frame_sigma_m_ * frame_sigma_m_ * Eigen::Matrix2d::Identity();
-    return matcher_.explain(looks_, noise_, now_, tracks_);
+    return matcher_.explain(looks_, noise_, tracks_);
   }
 
   std::optional<std::size_t> track_of_only_look(const Eigen::Vector2d& place, int class_id = 0) {
@@ -51,8 +52,8 @@ class MatchedLooks : public ::testing::Test {
 
   JointTrackerConfig config_;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
-                              solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+                              DriftConfig{}, solver_};
   TrackTable tracks_{20};
   LookMatcher matcher_{config_, 20};
   FrameNoise noise_{Eigen::Matrix2d::Zero(), 1.0, 1.0};
@@ -91,7 +92,7 @@ TEST_F(MatchedLooks, ReachAsFarAsTheirNoiseDoes) {
       for (const double factor : {0.98, 1.02}) {
         Look look = lone_look({0.0, factor * gate_m}, kVariance_m2);
         look.jacobian.middleCols<2>(SharedError::kFrame) = 0.3 * Eigen::Matrix2d::Identity();
-        const Explanation& explanation = matcher_.explain({look}, noise, now_, tracks);
+        const Explanation& explanation = matcher_.explain({look}, noise, tracks);
         EXPECT_EQ(explanation.match_of_look[0].track.has_value() || tracks[0].is_in_doubt, factor < 1.0)
             << hits << " hits, " << unseen_s << " s";
         tracks.clear_evidence();
@@ -113,7 +114,7 @@ TEST_F(MatchedLooks, ReachAsFarAsWhatShiftsThemAndNotTheTrack) {
       Look look = lone_look({factor * std::sqrt(config_.gate * variance), 0.0}, kVariance_m2);
       look.jacobian = shifted;
       tracks_.clear_evidence();
-      matcher_.explain({look}, noise_, now_, tracks_);
+      matcher_.explain({look}, noise_, tracks_);
       EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << is_shared;
     }
   }
@@ -136,7 +137,7 @@ TEST_F(MatchedLooks, FromAnotherSideReachAsFarAsTheGroundMayBeHighOrLow) {
           std::sqrt(config_.gate / (direction.transpose() * covariance.inverse() * direction).value());
       for (const double factor : {0.98, 1.02}) {
         tracks.clear_evidence();
-        matcher_.explain({lone_look(factor * gate_m * direction, kVariance_m2, slope)}, noise_, now_, tracks);
+        matcher_.explain({lone_look(factor * gate_m * direction, kVariance_m2, slope)}, noise_, tracks);
         EXPECT_EQ(tracks[0].is_seen || tracks[0].is_in_doubt, factor < 1.0) << slope.transpose();
       }
     }
@@ -161,7 +162,7 @@ TEST_F(MatchedLooks, ShowAnObjectOnAHillWhereTheirRaysPassIt) {
   EXPECT_LT((object.position_in_enu - place).norm(), 1e-9);
   for (const Eigen::Vector2d& slope : {Eigen::Vector2d(1.0, -1.0), Eigen::Vector2d(0.0, 0.8)}) {
     tracks_.clear_evidence();
-    const Explanation& explanation = matcher_.explain({look_along(slope)}, noise_, now_, tracks_);
+    const Explanation& explanation = matcher_.explain({look_along(slope)}, noise_, tracks_);
     ASSERT_TRUE(explanation.match_of_look[0].is_certain());
     EXPECT_LT(explanation.match_of_look[0].innovation.norm(), 1e-9);
   }
@@ -181,7 +182,7 @@ TEST_F(MatchedLooks, ReachAsFarAsWhatShiftsThemAndNotTheTracksHeight) {
       Look look = lone_look({factor * std::sqrt(config_.gate * variance), 0.0}, kVariance_m2, slope);
       if (is_shared) look.jacobian(0, 4) = -slope.x() * 0.8;
       tracks_.clear_evidence();
-      matcher_.explain({look}, noise_, now_, tracks_);
+      matcher_.explain({look}, noise_, tracks_);
       EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << is_shared;
     }
   }
@@ -194,7 +195,7 @@ TEST_F(MatchedLooks, ReachAsFarAsTheDetectorsNoiseDoesOfWhateverSizeItIs) {
     const double gate_m = std::sqrt(config_.gate * (variance + kVariance_m2 / 100.0));
     for (const double factor : {0.98, 1.02}) {
       tracks_.clear_evidence();
-      matcher_.explain({lone_look({0.0, factor * gate_m}, variance)}, noise_, now_, tracks_);
+      matcher_.explain({lone_look({0.0, factor * gate_m}, variance)}, noise_, tracks_);
       EXPECT_EQ(object.is_seen || object.is_in_doubt, factor < 1.0) << variance;
     }
   }
@@ -237,7 +238,7 @@ TEST_F(MatchedLooks, AreComparedWithEveryTrackTheyMayShow) {
     const Eigen::Vector2d apart = look.position - H * tracks[0].position_in_enu;
     const double distance = apart.dot(covariance.inverse() * apart);
     const double cost = distance + std::log(covariance.determinant());  // of the look at its track
-    const auto match = matcher_.explain({look, elsewhere}, noise_, now_, tracks).match_of_look[0];
+    const auto match = matcher_.explain({look, elsewhere}, noise_, tracks).match_of_look[0];
     const bool is_its = match.track == 0U;
     if (distance > config_.gate) {
       EXPECT_FALSE(is_its || match.is_ambiguous) << trial;

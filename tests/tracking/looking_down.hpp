@@ -29,7 +29,7 @@ struct LookingDown {
 
   JointFrame frame_at(double time_s) {
     view.vehicle.time = VehicleTime{from_seconds(time_s)};
-    return {projector, view, NodeSpan{0, 0.0}, NodeVector::Zero(), NoiseRepetition{}, 0.0};
+    return {projector, view, NodeSpan{0, 0.0}, NodeVector::Zero(), NoiseRepetition{}, 0.0, 0.1};
   }
 
   Projector projector{{}, intrinsics()};

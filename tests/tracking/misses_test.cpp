@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "calibration/noise.hpp"
 #include "tracking/looking_down.hpp"
 #include "tracking/resting_objects.hpp"
 
@@ -38,8 +39,8 @@ class Misses : public ::testing::Test {
   JointTrackerConfig config_;
   DetectionRate detection_rate_{kFound};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
-                              solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+                              DriftConfig{}, solver_};
   TrackTable tracks_{4};
   std::vector<Look> looks_;
 };

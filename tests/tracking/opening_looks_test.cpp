@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "calibration/noise.hpp"
 #include "projection/camera_pose.hpp"
 #include "support/nadir_flight.hpp"
 #include "tracking/resting_objects.hpp"
@@ -124,7 +125,7 @@ class OpeningFrames : public ::testing::Test {
     const FrameView now = *view(time_s);
     const NodeSpan span = errors_.drift.cover(now.vehicle.time, 0.5);
     const NoiseRepetition repetition{3.0 + time_s, 2.0};
-    const JointFrame frame{projector_, now, span, errors_.drift.at(span), repetition, 0.0};
+    const JointFrame frame{projector_, now, span, errors_.drift.at(span), repetition, 0.0, 0.1};
     const double share = 1.0 + std::fmod(time_s, 3.0);
     opening_looks_.begin_frame(stamp_at(time_s), frame, share);
     for (std::size_t i = 0; i < track_ids.size(); ++i) {
@@ -146,8 +147,8 @@ class OpeningFrames : public ::testing::Test {
       if (!now) continue;
       const auto fix = projector_.project(sighting.detection.box.centre(), now->enu_from_camera);
       if (!fix) continue;
-      const JointFrame frame{projector_,          *now, sighting.span, errors_.drift.at(sighting.span),
-                             sighting.repetition, 0.0};
+      const JointFrame frame{
+          projector_, *now, sighting.span, errors_.drift.at(sighting.span), sighting.repetition, 0.0, 0.1};
       landmark.add(
           maker_.make_look({sighting.detection, *fix}, sighting.looks_that_share, frame, errors_).observation,
           errors_.drift);
@@ -190,8 +191,8 @@ class OpeningFrames : public ::testing::Test {
   JointTrackerConfig config_;
   LookMaker maker_{config_, 20};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
-                              solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+                              DriftConfig{}, solver_};
   TrackTable tracks_{10};
   OpeningLooks opening_looks_;
   std::vector<Sighting> seen_;

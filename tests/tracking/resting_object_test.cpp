@@ -8,6 +8,7 @@
 #include <random>
 #include <vector>
 
+#include "calibration/noise.hpp"
 #include "tracking/resting_objects.hpp"
 
 namespace geoloc {
@@ -77,8 +78,8 @@ class RestingObjectSums : public ::testing::Test {
   std::mt19937 random_{5};
   std::normal_distribution<double> normal_;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
-                              solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+                              DriftConfig{}, solver_};
   TrackTable tracks_{12};
 };
 

@@ -27,7 +27,7 @@ struct JointTrackerConfig {
 
   // Noise of one look.
   double sigma_px = 1.5;  ///< of a box's centre
-  double sigma_attitude_deg = 0.1;
+  double sigma_attitude_deg = 0.3;
   double attitude_time_constant_s = 0.6;
   double sigma_time_s = 0.01;           ///< of a frame's stamp
   double horizontal_accuracy_m = 0.85;  ///< radial, where the autopilot reports none
