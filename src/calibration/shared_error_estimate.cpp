@@ -28,7 +28,7 @@ SharedError::CalibrationMatrix root_of(const Calibration& calibration) {
 }  // namespace
 
 double PositionAccuracy::wandering_sigma_m() const {
-  return std::sqrt(0.5 * (1.0 - constant_share)) * radial_m;
+  return std::sqrt(0.5 * (1.0 - constant_share)) * changing_m();
 }
 
 double PositionAccuracy::offset_sigma_m(double wandering_scale) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "calibration/arrowhead.hpp"
 #include "calibration/drift.hpp"
@@ -19,12 +20,19 @@ struct PositionAccuracy {
   double constant_share;        ///< share of the variance that stays constant over a flight; the rest wanders
   double least_offset_sigma_m;  ///< of the constant error, per axis
 
+  /// Of it, what may change within minutes: whatever a receiver says of itself, an autopilot's position does
+  /// not wander by tens of metres and stay usable.
+  double changing_m() const { return std::min(radial_m, kMostChanging_m); }
+
   /// 1-sigma per axis of the wandering.
   double wandering_sigma_m() const;
 
   /// 1-sigma per axis of the constant error. A receiver that wanders less than it reports (`wandering_scale`
   /// below 1) is taken to be as much better in what no look can show.
   double offset_sigma_m(double wandering_scale) const;
+
+ private:
+  static constexpr double kMostChanging_m = 3.0;
 };
 
 /// What is known by now of the errors that looks share: the camera's and the vehicle's constant ones, and the

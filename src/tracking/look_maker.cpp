@@ -63,7 +63,7 @@ bool is_of_moving_class(const Detection& detection, const MovingConfig& moving) 
 }
 
 double fast_position_variance_m2(const JointTrackerConfig& config, const SharedErrorEstimate& errors) {
-  return 0.5 * std::pow(config.fast_share * errors.accuracy.radial_m, 2);
+  return 0.5 * std::pow(config.fast_share * errors.accuracy.changing_m(), 2);
 }
 
 LookMaker::LookMaker(const JointTrackerConfig& config, int max_detections) : config_(config) {

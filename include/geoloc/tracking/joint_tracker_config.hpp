@@ -27,12 +27,12 @@ struct JointTrackerConfig {
 
   // Noise of one look.
   double sigma_px = 1.5;  ///< of a box's centre
-  double sigma_attitude_deg = 0.3;
+  double sigma_attitude_deg = 0.45;
   double attitude_time_constant_s = 0.6;
   double sigma_time_s = 0.01;           ///< of a frame's stamp
   double horizontal_accuracy_m = 0.85;  ///< radial, where the autopilot reports none
   double constant_share = 0.15;         ///< of the position's variance: constant over a flight
-  double least_offset_sigma_m = 0.02;
+  double least_offset_sigma_m = 0.04;
   double fast_share = 0.25;  ///< of the position's accuracy: changes from second to second
   double fast_time_constant_s = 1.0;
   double sigma_ground_m = 3.0;  ///< of an object's height above or below the level ground
