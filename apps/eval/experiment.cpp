@@ -76,13 +76,25 @@ void run_task(const Experiment& experiment, const Task& task, std::vector<RunRes
   const auto truth =
       sim::true_targets(sim::standing_on(settings.terrain, targets_in_enu), task.flight->truth.frame());
 
+  const EstimationConfig estimation =
+      estimation_over(settings.terrain, task.flight->truth.frame(), experiment);
   for (std::size_t m = 0; m < experiment.contenders.size(); ++m) {
-    results[task.first_result + m] = run_method({*task.flight, settings.run, frames, truth},
-                                                experiment.contenders[m], experiment.estimation);
+    results[task.first_result + m] =
+        run_method({*task.flight, settings.run, frames, truth}, experiment.contenders[m], estimation);
   }
 }
 
 }  // namespace
+
+EstimationConfig estimation_over(const sim::Terrain& terrain, const LocalFrame& frame,
+                                 const Experiment& experiment) {
+  EstimationConfig estimation = experiment.estimation;
+  if (experiment.dem_spacing_m) {
+    estimation.geolocator.terrain = std::make_shared<const HeightGrid>(
+        sim::elevation_model(terrain, frame, *experiment.dem_spacing_m, sim::Site{}.ground_height_msl_m));
+  }
+  return estimation;
+}
 
 RunResult run_method(const SimulatedRun& run, const Contender& contender, EstimationConfig config) {
   const LocalFrame& frame = run.flight.truth.frame();

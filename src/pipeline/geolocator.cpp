@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/projection/ground_model.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "pipeline/geolocator_fields.hpp"
@@ -63,6 +64,7 @@ class Geolocator::Implementation {
         state(config.state),
         viewer{state, config.camera.mount, config.camera_orientation},
         projector(config.projector, config.camera.intrinsics),
+        ground(config.joint.sigma_ground_m),
         tracker(make_tracker(config)) {
     selected_.reserve(config.max_detections);
     located.reserve(config.max_detections);
@@ -78,12 +80,14 @@ class Geolocator::Implementation {
   StateProvider state;
   const FrameViewer viewer;
   const Projector projector;
+  GroundModel ground;  // level until the vehicle's first position
   const std::unique_ptr<Tracker> tracker;
   FrameView view;
   std::vector<LocatedDetection> located;
   Counters counters;
 
  private:
+  void lift(FrameView nominal_view);
   void select(const std::vector<Detection>& detections);
   void locate();
 
@@ -99,13 +103,21 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
     return false;
   }
   ++counters.frames_located;
-  const double reported_m =
-      nominal_view->enu_from_camera.translation.z() - config.projector.ground_height_above_home_m;
-  view = calibrated(*nominal_view, tracker->calibration(), tracker->lift_m(reported_m));
+  if (config.terrain && ground.is_level())
+    ground = GroundModel(config.terrain, *state.local_frame(), config.joint.sigma_ground_m);
+  lift(*nominal_view);
   select(frame.detections);
   locate();
-  tracker->update({located, projector, view, *state.local_frame(), stamp, viewer});
+  tracker->update({located, projector, view, *state.local_frame(), stamp, viewer, ground});
   return true;
+}
+
+/// The joint method's rays meet a level plane at the height of the ground below the vehicle.
+void Geolocator::Implementation::lift(FrameView nominal_view) {
+  const Eigen::Vector3d& camera = nominal_view.enu_from_camera.translation;
+  if (config.method == Method::kJoint) nominal_view.terrain_m = ground.height_m(camera.head<2>());
+  const double reported_m = camera.z() - config.projector.ground_height_above_home_m - nominal_view.terrain_m;
+  view = calibrated(nominal_view, tracker->calibration(), tracker->lift_m(reported_m));
 }
 
 void Geolocator::Implementation::select(const std::vector<Detection>& detections) {
@@ -132,7 +144,9 @@ void Geolocator::Implementation::select(const std::vector<Detection>& detections
 void Geolocator::Implementation::locate() {
   located.clear();
   for (const Detection& detection : selected_) {
-    const auto fix = projector.project(detection.box.centre(), view.enu_from_camera);
+    const auto fix = config.method == Method::kJoint
+                         ? projector.project(detection.box.centre(), view.enu_from_camera)
+                         : projector.project(detection.box.centre(), view.enu_from_camera, ground);
     if (fix) {
       located.push_back({detection, *fix});
     } else {

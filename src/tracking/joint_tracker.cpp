@@ -7,6 +7,7 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
 #include "tracking/gaussian.hpp"
+#include "tracking/ground_prior.hpp"
 #include "tracking/identity.hpp"
 #include "tracking/misses.hpp"
 
@@ -34,14 +35,11 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
   return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
 }
 
-/// Stands for "exactly known": keeps the information finite.
-constexpr double kLeastSigmaGround_m = 1e-3;
-
-/// Objects lie this high above or below a plane.
-PointInformation level_ground(double sigma_m) {
-  PointInformation ground;
-  ground.matrix(2, 2) = 1.0 / std::pow(std::max(sigma_m, kLeastSigmaGround_m), 2);
-  return ground;
+/// Where objects move to another slope of the ground, that is what is known of their height.
+void follow_ground(const GroundModel& ground, TrackTable& tracks) {
+  if (ground.is_level()) return;
+  for (RestingObject& track : tracks)
+    set_ground(track, ground_prior(ground, track.position_in_enu.head<2>()));
 }
 
 void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
@@ -84,7 +82,8 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
 
 void JointTracker::update(const LocatedFrame& located) {
   const JointFrame frame = begin_frame(located);
-  const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
@@ -96,14 +95,14 @@ void JointTracker::update(const LocatedFrame& located) {
   if (may_be_twins) schedule_.request();
   cover_known_points(located, shift);
   absorb_matched(looks.at_rest, explanation, frame);
-  begin_tentative(looks.at_rest, explanation, frame);
+  begin_tentative(looks.at_rest, explanation, located.ground, frame);
   tell_neighbours_apart(looks.at_rest, explanation, errors_, config_.merge_radius_m, tracks_);
   remove_improbable();
   moving_.update(looks.moving,
                  {frame, shift, errors_.calibration.covariance.block<2, 2>(Index::kOffset, Index::kOffset),
                   detection_rate_.probability()},
                  book_);
-  if (schedule_.is_due(frame.time())) refine(frame, noise, located.viewer);
+  if (schedule_.is_due(frame.time())) refine(located, frame, noise);
   publish(located.projector);
 }
 
@@ -119,7 +118,8 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   const double ground_height_m =
       located.projector.config().ground_height_above_home_m + located.view.lifted_m;
   if (errors_.drift.size() == 0) {
-    const double reported_m = located.view.enu_from_camera.translation.z() - ground_height_m;
+    const double reported_m =
+        located.view.enu_from_camera.translation.z() - ground_height_m - located.view.terrain_m;
     errors_.height_prior = seen_from(reported_m, errors_.height_prior);
     errors_.calibration.mean[Index::kHeight] = errors_.height_prior.mean_m;
     bound_height(located.projector, located.view);
@@ -161,7 +161,9 @@ void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShif
   const Projector& projector = frame.projector;
   const double margin_px = kCoverMargin * projector.camera().intrinsics().height_px;
   known_points_.cover(frame.local_frame, [&](const Eigen::Vector2d& position_in_enu) {
-    return projector.sees(shift.shown(position_in_enu), frame.view.enu_from_camera, margin_px);
+    Eigen::Vector3d point_in_enu;
+    point_in_enu << position_in_enu, frame.ground.height_m(position_in_enu);
+    return projector.sees_point(shift.shown(point_in_enu), frame.view.enu_from_camera, margin_px);
   });
 }
 
@@ -182,7 +184,8 @@ void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanat
 }
 
 void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
-                                   const JointFrame& frame) {
+                                   const GroundModel& ground, const JointFrame& frame) {
+  const double max_range_m = frame.projector.config().max_range_m;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (explanation.match_of_look[i].track) continue;
     if (tracks_.is_full()) {
@@ -193,7 +196,8 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
     begin_object(track, clutter_rate_.birth_probability(config_.birth_probability),
                  frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
-    track.prior = level_ground(config_.sigma_ground_m);
+    track.ground = ground_prior(ground, ground_point(looks[i], ground, max_range_m).head<2>());
+    track.prior = track.ground;
     begin_sums(track, looks[i], errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
     track.look = i;
@@ -213,21 +217,22 @@ void JointTracker::remove_improbable() {
   }
 }
 
-void JointTracker::refine(const JointFrame& frame, const FrameNoise& noise, const FrameViewer& viewer) {
+void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise) {
   schedule_.begin_solution(frame.time());
-  const auto solution = solve(frame, viewer);
+  const auto solution = solve(located, frame);
   if (!solution) return;
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
   update_covariances(*solution, tracks_);
   if (!match_known_points(*solution, noise)) return;
-  if (const auto with_known_points = solve(frame, viewer)) update_covariances(*with_known_points, tracks_);
+  if (const auto with_known_points = solve(located, frame)) update_covariances(*with_known_points, tracks_);
 }
 
-std::optional<ArrowheadSolver::Solution> JointTracker::solve(const JointFrame& frame,
-                                                             const FrameViewer& viewer) {
+std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame& located,
+                                                             const JointFrame& frame) {
+  follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
-    opening_looks_.linearise_anew(viewer, frame.projector, look_maker_, errors_, tracks_);
+    opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
   const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift);
   if (!solution) return std::nullopt;
   errors_.take(*solution);

@@ -51,10 +51,10 @@ class JointTracker final : public Tracker {
   void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
                       const JointFrame& frame);
   void begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
-                       const JointFrame& frame);
+                       const GroundModel& ground, const JointFrame& frame);
   void remove_improbable();
-  void refine(const JointFrame& frame, const FrameNoise& noise, const FrameViewer& viewer);
-  std::optional<Solution> solve(const JointFrame& frame, const FrameViewer& viewer);
+  void refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise);
+  std::optional<Solution> solve(const LocatedFrame& located, const JointFrame& frame);
   void learn_wandering(const Solution& solution);
   void merge_compatible(const Solution& solution, const JointFrame& frame, const FrameNoise& noise);
   void merge(std::size_t kept, std::size_t gone);
