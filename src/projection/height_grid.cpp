@@ -76,7 +76,7 @@ std::optional<HeightGrid::Height> HeightGrid::at(const Geodetic& place) const {
   if (!std::isfinite(row_steps) || !std::isfinite(column_steps)) return std::nullopt;
   const Span row = span_at(row_steps, layout_.rows), column = span_at(column_steps, layout_.columns);
   const auto across = [&](std::size_t r) {
-    const double west = node(r, column.first), east = node(r, column.first + 1);
+    const double west = node_m(r, column.first), east = node_m(r, column.first + 1);
     return west + column.weight_of_second * (east - west);
   };
   const double south_m = across(row.first), north_m = across(row.first + 1);

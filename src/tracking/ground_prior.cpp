@@ -11,9 +11,9 @@ constexpr double kLeastSigma_m = 1e-3;
 
 }  // namespace
 
-PointInformation ground_prior(const GroundModel& ground, const Eigen::Vector2d& place) {
+PointInformation ground_prior(const GroundModel& ground, const Eigen::Vector2d& place, double least_sigma_m) {
   const GroundAt here = ground.at(place);
-  const double sigma_m = std::max(here.sigma_m, kLeastSigma_m);
+  const double sigma_m = std::max({here.sigma_m, least_sigma_m, kLeastSigma_m});
   const Point row(-here.slope.x(), -here.slope.y(), 1.0);
   const double value_m = here.height_m - here.slope.dot(place);
   PointInformation information;

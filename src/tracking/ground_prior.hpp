@@ -10,8 +10,8 @@
 namespace geoloc {
 
 /// What the ground says of an object near `place`: that it stands on the plane that touches the ground there,
-/// z = h + slope (x - place), give or take the ground's sigma.
-PointInformation ground_prior(const GroundModel& ground, const Eigen::Vector2d& place);
+/// z = h + slope (x - place), give or take the ground's sigma, or `least_sigma_m` where that is more.
+PointInformation ground_prior(const GroundModel& ground, const Eigen::Vector2d& place, double least_sigma_m);
 
 /// Where the look's ray meets the ground, its height counted from the level ground; where it does not meet
 /// it, the ground at the look's own place.

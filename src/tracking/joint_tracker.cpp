@@ -39,7 +39,7 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
 void follow_ground(const GroundModel& ground, TrackTable& tracks) {
   if (ground.is_level()) return;
   for (RestingObject& track : tracks)
-    set_ground(track, ground_prior(ground, track.position_in_enu.head<2>()));
+    set_ground(track, ground_prior(ground, track.position_in_enu.head<2>(), 0.0));
 }
 
 void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
@@ -186,6 +186,7 @@ void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanat
 void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
                                    const GroundModel& ground, const JointFrame& frame) {
   const double max_range_m = frame.projector.config().max_range_m;
+  const double share = ground.is_level() ? config_.sigma_ground_share : 0.0;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (explanation.match_of_look[i].track) continue;
     if (tracks_.is_full()) {
@@ -196,7 +197,8 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
     begin_object(track, clutter_rate_.birth_probability(config_.birth_probability),
                  frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
-    track.ground = ground_prior(ground, ground_point(looks[i], ground, max_range_m).head<2>());
+    const Point place = ground_point(looks[i], ground, max_range_m);
+    track.ground = ground_prior(ground, place.head<2>(), share * looks[i].camera_height_m);
     track.prior = track.ground;
     begin_sums(track, looks[i], errors_);
     opening_looks_.add(track.track.id, looks[i].detection);

@@ -45,11 +45,12 @@ class HeightGrid {
 
   const Layout& layout() const { return layout_; }
 
- private:
-  double node(std::size_t row, std::size_t column) const {
+  /// Not a number where it is not known.
+  double node_m(std::size_t row, std::size_t column) const {
     return heights_m_[row * layout_.columns + column];
   }
 
+ private:
   Layout layout_;
   std::vector<float> heights_m_;
   double least_m_ = 0.0;

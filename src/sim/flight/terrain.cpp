@@ -2,6 +2,9 @@
 #include "geoloc/sim/flight/terrain.hpp"
 
 #include <cmath>
+#include <iomanip>
+#include <locale>
+#include <sstream>
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
@@ -54,6 +57,27 @@ HeightGrid elevation_model(const Terrain& terrain, const LocalFrame& frame, doub
     }
   }
   return {layout, std::move(heights_m)};
+}
+
+std::string to_ascii_grid(const HeightGrid& model) {
+  const HeightGrid::Layout& layout = model.layout();
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << std::setprecision(15) << "ncols " << layout.columns << "\nnrows " << layout.rows << "\nxllcenter "
+       << layout.west_deg << "\nyllcenter " << layout.south_deg << "\ndx " << layout.longitude_step_deg
+       << "\ndy " << layout.latitude_step_deg << "\n"
+       << std::fixed << std::setprecision(3);
+  for (std::size_t row = layout.rows; row-- > 0;) {
+    for (std::size_t column = 0; column < layout.columns; ++column)
+      text << (column > 0 ? " " : "") << model.node_m(row, column);
+    text << "\n";
+  }
+  return text.str();
+}
+
+std::string wgs84_prj() {
+  return "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137.0,298.257223563]],"
+         "PRIMEM[\"Greenwich\",0.0],UNIT[\"Degree\",0.0174532925199433]]\n";
 }
 
 }  // namespace geoloc::sim

@@ -30,4 +30,9 @@ std::vector<Eigen::Vector3d> standing_on(const Terrain& terrain,
 HeightGrid elevation_model(const Terrain& terrain, const LocalFrame& frame, double spacing_m,
                            double home_msl_m);
 
+/// The same as an ESRI ASCII grid, which GDAL reads, and the text of the `.prj` file that says that it is in
+/// latitude and longitude.
+std::string to_ascii_grid(const HeightGrid& model);
+std::string wgs84_prj();
+
 }  // namespace geoloc::sim
