@@ -26,6 +26,7 @@ struct Options {
   std::vector<std::uint64_t> seeds{0, 1, 2};
   int known_points = 0;
   double hills_m = 0.0;
+  bool has_rangefinder = false;
   GroundOptions ground;
   double dem_spacing_m = 5.0;
   std::string config_file;
@@ -67,6 +68,8 @@ void add_options(CLI::App& program, Options& options) {
           "What the estimator is told of the ground: plane, free, or dem, the simulated ground itself")
       ->check(CLI::IsMember({kLevelGround, kFreeGround, "dem"}))
       ->capture_default_str();
+  program.add_flag("--rangefinder", options.has_rangefinder,
+                   "The vehicles measure the distance to the ground below them");
   program.add_option("--dem-spacing-m", options.dem_spacing_m, "Between the heights that dem tells, m")
       ->check(CLI::Range(0.5, 100.0))
       ->capture_default_str();
@@ -106,6 +109,7 @@ Experiment make_experiment(const Options& options) {
   experiment.scenarios = options.scenarios;
   experiment.seeds = options.seeds;
   experiment.recording.terrain.hills_m = options.hills_m;
+  experiment.has_rangefinder = options.has_rangefinder;
   if (options.ground.ground == "dem") experiment.dem_spacing_m = options.dem_spacing_m;
   if (!options.config_file.empty()) {
     std::vector<std::string> problems;

@@ -40,13 +40,15 @@ SweepPoint run_step(const Experiment& experiment, const Sweep& sweep, double val
                     const sim::Flight& recorded) {
   std::optional<sim::Flight> variant;
   if (sweep.flight_at) variant.emplace(sweep.flight_at(recorded, value));
-  const sim::Flight& flight = variant ? *variant : recorded;
+  const sim::Flight& flown = variant ? *variant : recorded;
   SweepPoint point{value, {}, 0};
   for (const std::uint64_t seed : experiment.seeds) {
     sim::RecordingSettings settings = experiment.recording;
     settings.run.scenario = 1;
     settings.run.seed = seed;
-    if (sweep.apply) sweep.apply(value, flight, settings);
+    if (sweep.apply) sweep.apply(value, flown, settings);
+    const std::optional<sim::Flight> equipped = better_equipped(flown, settings, experiment);
+    const sim::Flight& flight = equipped ? *equipped : flown;
     const auto targets_in_enu =
         sweep.targets_at ? sweep.targets_at(value, seed) : sim::make_scenario(1, seed);
     const auto frames = sim::generate_frames(flight, settings, targets_in_enu);

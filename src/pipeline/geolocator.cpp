@@ -9,6 +9,7 @@
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/projection/ground_model.hpp"
 #include "geoloc/projection/projector.hpp"
+#include "geoloc/state/state_buffer.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "pipeline/geolocator_fields.hpp"
 #include "projection/frame_viewer.hpp"
@@ -74,6 +75,7 @@ class Geolocator::Implementation {
     return state.at(captured_at - from_seconds(tracker->calibration().latency_s()));
   }
 
+  void add(const RangeSample& sample);
   bool process(const FrameDetections& frame);
 
   const GeolocatorConfig config;
@@ -87,12 +89,36 @@ class Geolocator::Implementation {
   Counters counters;
 
  private:
+  std::optional<double> range_at(VehicleTime time) const;
   void lift(FrameView nominal_view);
   void select(const std::vector<Detection>& detections);
   void locate();
 
+  StateBuffer<double> ranges_;
+  std::uint64_t reboots_ = 0;  // when ranges_ was begun
   std::vector<Detection> selected_;
 };
+
+/// A reboot sets the vehicle's clock back.
+void Geolocator::Implementation::add(const RangeSample& sample) {
+  if (!(sample.distance_m > 0.0) || !std::isfinite(sample.distance_m)) return;
+  if (const auto reboots = state.counters().reboots; reboots != reboots_) {
+    ranges_.clear();
+    reboots_ = reboots;
+  }
+  if (ranges_.insert(sample.time, sample.distance_m)) ++counters.ranges;
+}
+
+/// The distance between two readings that are near to each other in time and length: not across a wall's
+/// edge, and not across a spike.
+std::optional<double> Geolocator::Implementation::range_at(VehicleTime time) const {
+  constexpr double kLongestGap_s = 0.5, kMostChange = 0.2;
+  const auto bracket = ranges_.bracket(time, from_seconds(kLongestGap_s), Duration::zero());
+  if (!bracket) return std::nullopt;
+  const double nearer_m = std::min(bracket->before, bracket->after);
+  if (!(std::abs(bracket->after - bracket->before) <= kMostChange * nearer_m)) return std::nullopt;
+  return bracket->interpolated();
+}
 
 bool Geolocator::Implementation::process(const FrameDetections& frame) {
   ++counters.frames;
@@ -108,7 +134,8 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
   lift(*nominal_view);
   select(frame.detections);
   locate();
-  tracker->update({located, projector, view, *state.local_frame(), stamp, viewer, ground});
+  tracker->update(
+      {located, projector, view, *state.local_frame(), stamp, viewer, ground, range_at(view.vehicle.time)});
   return true;
 }
 
@@ -169,6 +196,10 @@ void Geolocator::add(const PositionSample& sample) {
   implementation_->state.add(sample);
 }
 
+void Geolocator::add(const RangeSample& sample) {
+  implementation_->add(sample);
+}
+
 void Geolocator::on_vehicle_reboot() {
   implementation_->state.restart();
 }
@@ -217,6 +248,10 @@ const StateProvider& Geolocator::state() const {
 
 const Projector& Geolocator::projector() const {
   return implementation_->projector;
+}
+
+const GroundModel& Geolocator::ground() const {
+  return implementation_->ground;
 }
 
 const TrackCounters& Geolocator::track_counters() const {

@@ -10,6 +10,7 @@
 #include "tracking/ground_prior.hpp"
 #include "tracking/identity.hpp"
 #include "tracking/misses.hpp"
+#include "tracking/range_aid.hpp"
 
 namespace geoloc {
 namespace {
@@ -58,6 +59,7 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
       solver_(config.prior, config.drift.max_nodes),
       errors_(accuracy_of(config), {config.prior.height_m, config.prior.sigma_height_m},
               NoiseEstimate(config.sigma_attitude_deg * kRadPerDeg), config.drift, solver_),
+      heights_(config.drift.max_nodes),
       noise_clock_(config.fast_time_constant_s, config.attitude_time_constant_s),
       schedule_(config.solve_period_s),
       look_maker_(config_, max_detections),
@@ -106,6 +108,21 @@ void JointTracker::update(const LocatedFrame& located) {
   publish(located.projector);
 }
 
+/// The first reading is where the estimate of the height begins: it may be tens of metres from the prior,
+/// after a take-off elsewhere.
+void JointTracker::measure_height(const LocatedFrame& located, const NodeSpan& now) {
+  if (!located.range_m) return;
+  const auto reading = height_reading(*located.range_m, located.view.vehicle,
+                                      located.projector.config().ground_height_above_home_m, located.ground);
+  if (!reading || !agrees(*reading, errors_, now)) {
+    ++book_.counters.ranges_refused;
+    return;
+  }
+  const bool is_first = book_.counters.ranges_used++ == 0;
+  heights_.add(now, reading->value_m, reading->variance_m2);
+  if (is_first && tracks_.size() == 0) errors_.calibration.mean[Index::kHeight] = reading->value_m;
+}
+
 /// Tracks hold what was whitened with the roots, so that these change with the solution only.
 void JointTracker::bound_height(const Projector& projector, const FrameView& view) {
   errors_.bound_height(view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m);
@@ -132,8 +149,10 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   while (drift.size() > config_.drift.max_nodes) {
     opening_looks_.close();
     for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
+    heights_.freeze_oldest(drift);
     drift.freeze_oldest();
   }
+  measure_height(located, span);
   return {located.projector,
           located.view,
           span,
@@ -160,9 +179,7 @@ void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {
   const Projector& projector = frame.projector;
   const double margin_px = kCoverMargin * projector.camera().intrinsics().height_px;
-  known_points_.cover(frame.local_frame, [&](const Eigen::Vector2d& position_in_enu) {
-    Eigen::Vector3d point_in_enu;
-    point_in_enu << position_in_enu, frame.ground.height_m(position_in_enu);
+  known_points_.cover(frame.local_frame, frame.ground, [&](const Eigen::Vector3d& point_in_enu) {
     return projector.sees_point(shift.shown(point_in_enu), frame.view.enu_from_camera, margin_px);
   });
 }
@@ -235,7 +252,7 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
   follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
     opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
-  const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift);
+  const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_);
   if (!solution) return std::nullopt;
   errors_.take(*solution);
   bound_height(frame.projector, frame.view);

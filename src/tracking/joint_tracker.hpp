@@ -44,6 +44,7 @@ class JointTracker final : public Tracker {
  private:
   using Solution = ArrowheadSolver::Solution;
 
+  void measure_height(const LocatedFrame& located, const NodeSpan& now);
   void bound_height(const Projector& projector, const FrameView& view);
   JointFrame begin_frame(const LocatedFrame& frame);
   void learn_noise(const std::vector<Look>& looks, const Explanation& explanation);
@@ -64,6 +65,7 @@ class JointTracker final : public Tracker {
   const JointTrackerConfig config_;
   ArrowheadSolver solver_;
   SharedErrorEstimate errors_;
+  HeightLog heights_;
   NoiseClock noise_clock_;
   SolutionSchedule schedule_;
   LookMaker look_maker_;

@@ -25,6 +25,7 @@ struct LocatedFrame {
   FrameStamp stamp;
   const FrameViewer& viewer;  ///< made `view`
   const GroundModel& ground;
+  std::optional<double> range_m;  ///< a rangefinder's distance down the body's axis at the view's time
 };
 
 /// Makes objects of the fixes of one frame after another.
