@@ -63,7 +63,7 @@ std::optional<double> intersect(const Ray<double>& ray, const GroundModel& groun
     return point.z() - ground.height_m(point.head<2>());
   };
   const double fall = -ray.direction.z();  // per metre of range
-  if (!(fall > 0.0) || !(clearance_m(0.0) > 0.0)) return std::nullopt;
+  if (!ray.origin.allFinite() || !(fall > 0.0) || !(clearance_m(0.0) > 0.0)) return std::nullopt;
   double above_m = std::max(0.0, (ray.origin.z() - ground.greatest_m()) / fall);
   const double lowest_m = (ray.origin.z() - ground.least_m()) / fall;  // the ground is met until there
   const double end_m = std::min(max_range_m, lowest_m);

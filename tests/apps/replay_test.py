@@ -127,6 +127,16 @@ class Ground(AppTest):
     def test_ground_that_is_free_needs_no_model(self):
         self.assertEqual(self.replay("--ground", "free")[0], 30)
 
+    def test_a_rangefinders_readings_are_counted(self):
+        done = run("geoloc_sim", "--record", self.folder / "ranges", "--rangefinder", "--ground-above-home-m", 20, "--seed", 1,
+                   "--start-s", 80, "--end-s", 100)
+        self.assertEqual(done.status, 0, done.err)
+        self.recording = self.folder / "ranges"
+        self.replay()
+        counters = json.loads((self.folder / "objects.geojson").read_text())["counters"]
+        self.assertGreater(counters["ranges_used"], 100)
+        self.assertLess(counters["ranges_refused"], 20)
+
     def test_unusable_models_are_refused_before_anything_starts(self):
         text = self.write("text.tif", "no picture")
         for options in (["--ground", "missing.tif"], ["--ground", text], ["--ground", self.folder],

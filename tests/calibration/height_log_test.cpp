@@ -28,6 +28,7 @@ TEST_F(HeightLogs, CountReadingsBetweenTheSameNodesAsOneThatIsTheirMean) {
 
 /// The node's estimate is taken out of what is left.
 TEST_F(HeightLogs, KeepWhatFrozenNodesLeaveOfTheConstantHeight) {
+  at(0.0);
   log_.add(at(1.0), 3.0, 0.25);
   log_.add(at(6.0), 9.0, 0.25);
   drift_.node(0).mean[kNodeUp] = 0.5;

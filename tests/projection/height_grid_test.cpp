@@ -47,7 +47,7 @@ TEST(HeightGrids, GoOnAsTheirEdgeAndSayHowFarThatIs) {
   const HeightGrid grid(small_layout(), {1, 2, 3, 4, 5, 6});
   const auto north = grid.at({46.02, 7.01});
   ASSERT_TRUE(north);
-  EXPECT_DOUBLE_EQ(north->height_m, 5.0);
+  EXPECT_NEAR(north->height_m, 5.0, 1e-9);
   EXPECT_NEAR(north->beyond_m, 1112.0, 5.0);
   const auto corner = grid.at({45.99, 6.99});
   ASSERT_TRUE(corner);
