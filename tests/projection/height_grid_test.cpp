@@ -30,10 +30,11 @@ TEST(HeightGrids, AreBilinearBetweenTheirNodes) {
     const double r = row(random), c = column(random);
     // The sum over all nodes of what each weighs: the product of two triangles.
     double expected = 0.0;
-    for (int j = 0; j < 20; ++j) {
-      for (int k = 0; k < 30; ++k) {
-        const double weight = std::max(0.0, 1.0 - std::abs(r - j)) * std::max(0.0, 1.0 - std::abs(c - k));
-        expected += weight * heights_m[static_cast<std::size_t>(30 * j + k)];
+    for (std::size_t j = 0; j < 20; ++j) {
+      for (std::size_t k = 0; k < 30; ++k) {
+        const double along = std::max(0.0, 1.0 - std::abs(r - static_cast<double>(j)));
+        const double across = std::max(0.0, 1.0 - std::abs(c - static_cast<double>(k)));
+        expected += along * across * heights_m[30 * j + k];
       }
     }
     const auto here = grid.at({46.0 + 0.001 * r, 7.0 + 0.002 * c});
