@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "calibration/noise.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "support/tilted_ground.hpp"
 #include "tracking/resting_objects.hpp"
@@ -67,8 +68,8 @@ class Agreement : public ::testing::Test {
   }
 
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, DriftConfig{},
-                              solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+                              DriftConfig{}, solver_};
   NodeSpan span_;
 };
 
