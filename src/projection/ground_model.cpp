@@ -9,8 +9,9 @@
 namespace geoloc {
 namespace {
 
-/// Where a grid has no height: as much as ground may differ within a flight.
-constexpr double kUnknownSigma_m = 30.0;
+/// Where a grid has no height, and at most beyond its edge. More, and the first looks from a low flight could
+/// be looks at anything below it.
+constexpr double kUnknownSigma_m = 10.0;
 /// Beyond its edge: so steep may the ground be.
 constexpr double kSlopeBeyond = 0.2;
 constexpr int kMostSteps = 4096;
@@ -39,7 +40,7 @@ double GroundModel::height_m(const Eigen::Vector2d& position_in_enu) const {
   return here ? here->height_m - height_at_origin_m_ : 0.0;
 }
 
-/// The slope is that of the grid's cell: a difference over a metre to both sides would round its edges off.
+/// The slope is that of the grid's cell: a difference over a longer way would round its edges off.
 GroundAt GroundModel::at(const Eigen::Vector2d& position_in_enu) const {
   if (is_level()) return {0.0, Eigen::Vector2d::Zero(), sigma_m_};
   const auto here = grid_at(position_in_enu);
@@ -50,7 +51,8 @@ GroundAt GroundModel::at(const Eigen::Vector2d& position_in_enu) const {
     const auto beside = grid_at(position_in_enu + step_m * Eigen::Vector2d::Unit(axis));
     if (beside) slope[axis] = (beside->height_m - here->height_m) / step_m;
   }
-  return {here->height_m - height_at_origin_m_, slope, std::hypot(sigma_m_, kSlopeBeyond * here->beyond_m)};
+  const double beyond_sigma_m = std::min(kSlopeBeyond * here->beyond_m, kUnknownSigma_m);
+  return {here->height_m - height_at_origin_m_, slope, std::hypot(sigma_m_, beyond_sigma_m)};
 }
 
 double GroundModel::spacing_m() const {

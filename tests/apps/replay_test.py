@@ -125,6 +125,15 @@ class Ground(AppTest):
         self.assertEqual(found, 30)
         self.assertLess(believed, doubted + 0.005)
 
+    def test_a_model_of_another_place_is_named_and_does_no_harm(self):
+        elsewhere = self.folder / "elsewhere.tif"
+        subprocess.run(["gdal_translate", "-q", "-a_srs", "EPSG:4326", "-a_ullr", "7", "47", "7.01", "46.99",
+                        self.recording / "terrain.asc", elsewhere], check=True)
+        found, _, messages = self.replay("--ground", elsewhere)
+        self.assertIn("of another place", messages)
+        self.assertGreaterEqual(found, 28)
+        self.assertNotIn("of another place", self.replay("--ground", self.model)[2])
+
     def test_ground_that_is_free_needs_no_model(self):
         self.assertEqual(self.replay("--ground", "free")[0], 30)
 

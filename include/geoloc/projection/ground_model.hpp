@@ -26,8 +26,8 @@ class GroundModel {
   /// Level ground, and objects that stand so much above or below it.
   explicit GroundModel(double sigma_m) : sigma_m_(sigma_m) {}
 
-  /// sigma_m: of objects about the grid's heights. Beyond its edge it grows, and where a height is missing
-  /// the ground is level and all but unknown.
+  /// sigma_m: of objects about the grid's heights. Beyond its edge it grows, to 10 m, and where a height is
+  /// missing the ground is level to 10 m.
   GroundModel(std::shared_ptr<const HeightGrid> grid, const LocalFrame& frame, double sigma_m);
 
   bool is_level() const { return grid_ == nullptr; }
