@@ -7,6 +7,7 @@
 
 #include "common/command_line.hpp"
 #include "common/detector_options.hpp"
+#include "common/ground_options.hpp"
 #include "common/progress_line.hpp"
 #include "eval/experiment.hpp"
 #include "eval/report_folder.hpp"
@@ -25,6 +26,9 @@ struct Options {
   std::vector<std::uint64_t> seeds{0, 1, 2};
   int known_points = 0;
   double hills_m = 0.0;
+  bool has_rangefinder = false;
+  GroundOptions ground;
+  double dem_spacing_m = 5.0;
   std::string config_file;
   std::string sweep;
   bool is_rendered = false;
@@ -58,6 +62,18 @@ void add_options(CLI::App& program, Options& options) {
   program.add_option("--hills-m", options.hills_m, "Amplitude of the ground's waves in the table's runs, m")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
+  program
+      .add_option(
+          "--ground", options.ground.ground,
+          "What the estimator is told of the ground: plane, free, or dem, the simulated ground itself")
+      ->check(CLI::IsMember({kLevelGround, kFreeGround, "dem"}))
+      ->capture_default_str();
+  program.add_flag("--rangefinder", options.has_rangefinder,
+                   "The vehicles measure the distance to the ground below them");
+  program.add_option("--dem-spacing-m", options.dem_spacing_m, "Between the heights that dem tells, m")
+      ->check(CLI::Range(0.5, 100.0))
+      ->capture_default_str();
+  add_ground_sigma_option(program, options.ground);
   program.add_option("--sweep", options.sweep, "Vary one circumstance as well: its name, or all [none]")
       ->type_name("NAME");
   program.add_flag(
@@ -93,12 +109,15 @@ Experiment make_experiment(const Options& options) {
   experiment.scenarios = options.scenarios;
   experiment.seeds = options.seeds;
   experiment.recording.terrain.hills_m = options.hills_m;
+  experiment.has_rangefinder = options.has_rangefinder;
+  if (options.ground.ground == "dem") experiment.dem_spacing_m = options.dem_spacing_m;
   if (!options.config_file.empty()) {
     std::vector<std::string> problems;
     estimation_from_json(read_config_document(options.config_file), {"video", "detection"},
                          experiment.estimation, problems);
     refuse_problems(options.config_file, problems);
   }
+  apply_ground_sigma(options.ground, experiment.estimation.geolocator);
   return experiment;
 }
 

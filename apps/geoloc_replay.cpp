@@ -9,6 +9,7 @@
 
 #include "common/command_line.hpp"
 #include "common/estimation_config.hpp"
+#include "common/ground_options.hpp"
 #include "common/live_page_output.hpp"
 #include "common/objects_table.hpp"
 #include "common/output_options.hpp"
@@ -35,6 +36,7 @@ struct Options {
   bool print_config = false;
   std::optional<double> speed;
   PriorFiles priors;
+  GroundOptions ground;
   OutputOptions outputs;
 };
 
@@ -71,6 +73,8 @@ EstimationConfig choose_config(const Options& options, const io::Recording* reco
     apply(read_config_document(options.config_file), options.config_file, config);
   if (!options.method.empty()) apply({{"method", options.method}}, "--method", config);
   apply_priors(options.priors, config.geolocator);
+  if (const std::string remarks = apply_ground(options.ground, config.geolocator); !remarks.empty())
+    std::fprintf(stderr, "%s\n", remarks.c_str());
   return config;
 }
 
@@ -89,6 +93,7 @@ void add_options(CLI::App& program, Options& options) {
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("X");
   add_prior_options(program, options.priors);
+  add_ground_options(program, options.ground);
   add_output_options(program, options.outputs);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_options.hpp"
 
+#include <cstdio>
+
 namespace geoloc::apps {
 
 void add_live_options(CLI::App& program, LiveOptions& options) {
@@ -20,6 +22,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   program.add_flag("--print-settings", options.print_settings,
                    "Print each setting's default, range, unit and meaning as a table, and exit");
   add_prior_options(program, options.priors);
+  add_ground_options(program, options.ground);
   add_output_options(program, options.outputs);
 }
 
@@ -33,6 +36,9 @@ LiveConfig load_config(const LiveOptions& options) {
   if (!options.config_file.empty()) apply(read_config_document(options.config_file), options.config_file);
   if (!options.method.empty()) apply({{"method", options.method}}, "--method");
   apply_priors(options.priors, config.estimation.geolocator);
+  if (const std::string remarks = apply_ground(options.ground, config.estimation.geolocator);
+      !remarks.empty())
+    std::fprintf(stderr, "%s\n", remarks.c_str());
   config.detection = with_backend(options.detector, config.detection);
   return config;
 }

@@ -6,6 +6,7 @@
 
 #include "app/live_config.hpp"
 #include "common/detector_options.hpp"
+#include "common/ground_options.hpp"
 #include "common/output_options.hpp"
 #include "common/prior_options.hpp"
 
@@ -24,6 +25,7 @@ struct LiveOptions {
   bool print_config = false;
   bool print_settings = false;
   PriorFiles priors;
+  GroundOptions ground;
   OutputOptions outputs;
 };
 

@@ -27,6 +27,15 @@ std::string unused_known_points(const Geolocator& geolocator) {
   return lines;
 }
 
+/// An elevation model of another place says nothing of this one.
+std::string useless_terrain(const Geolocator& geolocator) {
+  const HeightGrid* const terrain = geolocator.config().terrain.get();
+  if (terrain == nullptr || !geolocator.local_frame()) return {};
+  const auto below_start = terrain->at(geolocator.local_frame()->origin());
+  if (below_start && below_start->beyond_m == 0.0) return {};
+  return "\nthe elevation model of --ground has no height where the flight began: is it of another place?";
+}
+
 }  // namespace
 
 io::RunRecord record_run(const Session& session, const std::vector<std::string>& class_names,
@@ -46,7 +55,8 @@ io::RunRecord record_run(const Session& session, const std::vector<std::string>&
 }
 
 std::string summarize_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
-  const std::string unused = unused_known_points(session.geolocator());
+  const std::string unused =
+      unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
   const std::uint64_t frames = session.frames();
   if (truth.empty()) {
     return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",

@@ -53,6 +53,7 @@ class Session final : private io::TelemetrySink {
  private:
   void on_attitude(const AttitudeSample& sample) override { geolocator_.add(sample); }
   void on_position(const PositionSample& sample) override { geolocator_.add(sample); }
+  void on_range(const RangeSample& sample) override { geolocator_.add(sample); }
   void on_reboot() override { geolocator_.on_vehicle_reboot(); }
   void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) override;
 

@@ -12,6 +12,7 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/sim/flight/flight.hpp"
 #include "geoloc/sim/flight/scenario.hpp"
+#include "geoloc/sim/live/rangefinder.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -71,18 +72,37 @@ void run_task(const Experiment& experiment, const Task& task, std::vector<RunRes
   sim::RecordingSettings settings = experiment.recording;
   settings.run.scenario = task.scenario;
   settings.run.seed = task.seed;
+  const std::optional<sim::Flight> equipped = better_equipped(*task.flight, settings, experiment);
+  const sim::Flight& flight = equipped ? *equipped : *task.flight;
+  const LocalFrame& frame = flight.truth.frame();
   const auto targets_in_enu = sim::make_scenario(task.scenario, task.seed);
-  const auto frames = sim::generate_frames(*task.flight, settings, targets_in_enu);
-  const auto truth =
-      sim::true_targets(sim::standing_on(settings.terrain, targets_in_enu), task.flight->truth.frame());
-
+  const auto frames = sim::generate_frames(flight, settings, targets_in_enu);
+  const auto truth = sim::true_targets(sim::standing_on(settings.terrain, targets_in_enu), frame);
+  const EstimationConfig estimation = estimation_over(settings.terrain, frame, experiment);
   for (std::size_t m = 0; m < experiment.contenders.size(); ++m) {
-    results[task.first_result + m] = run_method({*task.flight, settings.run, frames, truth},
-                                                experiment.contenders[m], experiment.estimation);
+    results[task.first_result + m] =
+        run_method({flight, settings.run, frames, truth}, experiment.contenders[m], estimation);
   }
 }
 
 }  // namespace
+
+std::optional<sim::Flight> better_equipped(const sim::Flight& recorded,
+                                           const sim::RecordingSettings& settings,
+                                           const Experiment& experiment) {
+  if (!experiment.has_rangefinder) return std::nullopt;
+  return sim::with_rangefinder(recorded, settings.terrain, sim::run_seed(settings.run, recorded));
+}
+
+EstimationConfig estimation_over(const sim::Terrain& terrain, const LocalFrame& frame,
+                                 const Experiment& experiment) {
+  EstimationConfig estimation = experiment.estimation;
+  if (experiment.dem_spacing_m) {
+    estimation.geolocator.terrain = std::make_shared<const HeightGrid>(
+        sim::elevation_model(terrain, frame, *experiment.dem_spacing_m, sim::Site{}.ground_height_msl_m));
+  }
+  return estimation;
+}
 
 RunResult run_method(const SimulatedRun& run, const Contender& contender, EstimationConfig config) {
   const LocalFrame& frame = run.flight.truth.frame();

@@ -31,9 +31,20 @@ struct Experiment {
   std::vector<int> scenarios{1, 2, 3};
   std::vector<std::uint64_t> seeds{0, 1, 2};
   std::vector<Contender> contenders{{Method::kPaper, 0}, {Method::kJoint, 0}};
-  sim::RecordingSettings recording;  ///< flight, scenario and seed are set for each run
-  EstimationConfig estimation;       ///< camera and method are set for each run
+  sim::RecordingSettings recording;     ///< flight, scenario and seed are set for each run
+  EstimationConfig estimation;          ///< camera and method are set for each run
+  bool has_rangefinder = false;         ///< the vehicles measure the distance to the ground below them
+  std::optional<double> dem_spacing_m;  ///< the estimator is told an elevation model with such nodes
 };
+
+/// The flight with what the experiment's vehicles tell besides; nullopt: nothing.
+std::optional<sim::Flight> better_equipped(const sim::Flight& recorded,
+                                           const sim::RecordingSettings& settings,
+                                           const Experiment& experiment);
+
+/// What a run's estimator is told besides camera and method.
+EstimationConfig estimation_over(const sim::Terrain& terrain, const LocalFrame& frame,
+                                 const Experiment& experiment);
 
 /// Estimated minus injected, with the stated sigma; only where the method estimates it.
 struct CalibrationError {

@@ -40,22 +40,24 @@ SweepPoint run_step(const Experiment& experiment, const Sweep& sweep, double val
                     const sim::Flight& recorded) {
   std::optional<sim::Flight> variant;
   if (sweep.flight_at) variant.emplace(sweep.flight_at(recorded, value));
-  const sim::Flight& flight = variant ? *variant : recorded;
+  const sim::Flight& flown = variant ? *variant : recorded;
   SweepPoint point{value, {}, 0};
   for (const std::uint64_t seed : experiment.seeds) {
     sim::RecordingSettings settings = experiment.recording;
     settings.run.scenario = 1;
     settings.run.seed = seed;
-    if (sweep.apply) sweep.apply(value, flight, settings);
+    if (sweep.apply) sweep.apply(value, flown, settings);
+    const std::optional<sim::Flight> equipped = better_equipped(flown, settings, experiment);
+    const sim::Flight& flight = equipped ? *equipped : flown;
     const auto targets_in_enu =
         sweep.targets_at ? sweep.targets_at(value, seed) : sim::make_scenario(1, seed);
     const auto frames = sim::generate_frames(flight, settings, targets_in_enu);
     const auto truth =
         sim::true_targets(sim::standing_on(settings.terrain, targets_in_enu), flight.truth.frame());
+    const EstimationConfig estimation = estimation_over(settings.terrain, flight.truth.frame(), experiment);
     for (const Contender& contender : experiment.contenders) {
       if (contender.known_points > 0) continue;
-      point.runs.push_back(
-          run_method({flight, settings.run, frames, truth}, contender, experiment.estimation));
+      point.runs.push_back(run_method({flight, settings.run, frames, truth}, contender, estimation));
     }
     if (sweep.leaves_targets_out)
       point.in_view += targets_in_view(flight, settings, sim::standing_on(settings.terrain, targets_in_enu));

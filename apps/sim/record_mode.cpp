@@ -8,6 +8,7 @@
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/flight/recording_generator.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
+#include "geoloc/sim/live/rangefinder.hpp"
 
 namespace geoloc::sim {
 
@@ -29,6 +30,10 @@ CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
       "Height of the ground above the place of take-off, m; the flight is as high above the ground as "
       "without")
       ->capture_default_str();
+  program
+      .add_flag("--rangefinder", options.has_rangefinder,
+                "The vehicle measures the distance to the ground below it (DISTANCE_SENSOR)")
+      ->group("Recording without video");
   return record;
 }
 
@@ -49,6 +54,8 @@ int run_record_mode(const RunOptions& run, const RecordOptions& options, std::ui
     if (options.terrain.level_above_home_m != 0.0)
       flight = raised(*flight, options.terrain.level_above_home_m);
     run_span(settings.run, flight->truth);  // refuses times outside the flight
+    if (options.has_rangefinder)
+      flight = with_rangefinder(*flight, options.terrain, run_seed(settings.run, *flight));
   } catch (const std::exception& error) {
     return fail(error, 2);
   }

@@ -15,6 +15,7 @@ struct RecordOptions {
   std::string folder;
   DetectorModel detector;
   Terrain terrain;
+  bool has_rangefinder = false;
 };
 
 /// Adds --record and the noise model's options; returns the one that chooses this mode.

@@ -66,6 +66,28 @@ void ArrowheadSolver::add_prior(const Calibration& prior, const DriftTimeline& d
   }
 }
 
+/// An observation of the constant height, and of the up components of the two nodes around it.
+void ArrowheadSolver::add_heights(const HeightLog& heights, const HeadLayout& layout) {
+  constexpr int kHeight = CalibrationIndex::kHeight;
+  const Eigen::Index last = layout.column_of_calibration();
+  auto constant = information_.block<kCalibration, kCalibration>(last, last);
+  constant(kHeight, kHeight) += heights.constant().information;
+  right_hand_side_[last + kHeight] += heights.constant().vector;
+  for (const HeightObservation& seen : heights.observations()) {
+    const double second = seen.span.weight_of_second, first = 1.0 - second, weight = seen.information;
+    const Eigen::Index here = layout.column_of(seen.span.first), next = here + kNodeSize;
+    information_.block<kNodeSize, kNodeSize>(here, here)(kNodeUp, kNodeUp) += weight * first * first;
+    information_.block<kNodeSize, kNodeSize>(next, here)(kNodeUp, kNodeUp) += weight * second * first;
+    information_.block<kNodeSize, kNodeSize>(next, next)(kNodeUp, kNodeUp) += weight * second * second;
+    information_.block<kCalibration, kNodeSize>(last, here)(kHeight, kNodeUp) += weight * first;
+    information_.block<kCalibration, kNodeSize>(last, next)(kHeight, kNodeUp) += weight * second;
+    constant(kHeight, kHeight) += weight;
+    right_hand_side_[here + kNodeUp] += weight * first * seen.value_m;
+    right_hand_side_[next + kNodeUp] += weight * second * seen.value_m;
+    right_hand_side_[last + kHeight] += weight * seen.value_m;
+  }
+}
+
 /// Adds C - B' A^-1 B to the lower triangle and g + B' A^-1 b to the right-hand side.
 void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& layout) {
   const PointMatrix A_inverse = landmark.A().inverse();
@@ -95,11 +117,13 @@ void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& l
 
 std::optional<ArrowheadSolver::Solution> ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks,
                                                                 const FlightPrior& prior,
-                                                                const DriftTimeline& drift) {
+                                                                const DriftTimeline& drift,
+                                                                const HeightLog& heights) {
   const HeadLayout layout{drift.begin(), drift.end()};
   information_.reset(layout.size());
   right_hand_side_.head(layout.size()).setZero();
   add_prior(this->prior(prior), drift, layout);
+  add_heights(heights, layout);
   for (const Landmark* landmark : landmarks) add_landmark(*landmark, layout);
   if (!information_.factorize()) return std::nullopt;
   information_.solve(right_hand_side_.head(layout.size()));

@@ -7,6 +7,7 @@
 
 #include "calibration/drift.hpp"
 #include "calibration/envelope_cholesky.hpp"
+#include "calibration/height_log.hpp"
 #include "calibration/landmark.hpp"
 #include "geoloc/calibration/calibration.hpp"
 
@@ -73,14 +74,17 @@ class ArrowheadSolver {
   ArrowheadSolver(const CalibrationPrior& prior, int max_nodes);
 
   /// Solves for the head with the objects' sums. nullopt where rounding has left no solution.
+  /// `heights`: what is known of the camera's height besides.
   [[nodiscard]] std::optional<Solution> solve(const std::vector<const Landmark*>& landmarks,
-                                              const FlightPrior& prior, const DriftTimeline& drift);
+                                              const FlightPrior& prior, const DriftTimeline& drift,
+                                              const HeightLog& heights = HeightLog());
 
   /// The calibration before anything was seen.
   Calibration prior(const FlightPrior& prior) const;
 
  private:
   void add_prior(const Calibration& prior, const DriftTimeline& drift, const HeadLayout& layout);
+  void add_heights(const HeightLog& heights, const HeadLayout& layout);
   void add_landmark(const Landmark& landmark, const HeadLayout& layout);
   void add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign);
   PointMatrix head_covariance(Eigen::Index first);

@@ -13,6 +13,7 @@ namespace geoloc {
 
 /// A node's state: east, north, up [m], yaw [rad, clockwise]; corrections to what the vehicle reports.
 inline constexpr int kNodeSize = 4;
+inline constexpr int kNodeUp = 2;
 using NodeVector = Eigen::Matrix<double, kNodeSize, 1>;
 using NodeMatrix = Eigen::Matrix<double, kNodeSize, kNodeSize>;
 

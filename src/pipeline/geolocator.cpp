@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/projection/ground_model.hpp"
 #include "geoloc/projection/projector.hpp"
+#include "geoloc/state/state_buffer.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "pipeline/geolocator_fields.hpp"
 #include "projection/frame_viewer.hpp"
@@ -63,6 +65,7 @@ class Geolocator::Implementation {
         state(config.state),
         viewer{state, config.camera.mount, config.camera_orientation},
         projector(config.projector, config.camera.intrinsics),
+        ground(config.joint.sigma_ground_m),
         tracker(make_tracker(config)) {
     selected_.reserve(config.max_detections);
     located.reserve(config.max_detections);
@@ -72,23 +75,50 @@ class Geolocator::Implementation {
     return state.at(captured_at - from_seconds(tracker->calibration().latency_s()));
   }
 
+  void add(const RangeSample& sample);
   bool process(const FrameDetections& frame);
 
   const GeolocatorConfig config;
   StateProvider state;
   const FrameViewer viewer;
   const Projector projector;
+  GroundModel ground;  // level until the vehicle's first position
   const std::unique_ptr<Tracker> tracker;
   FrameView view;
   std::vector<LocatedDetection> located;
   Counters counters;
 
  private:
+  std::optional<double> range_at(VehicleTime time) const;
+  void lift(FrameView nominal_view);
   void select(const std::vector<Detection>& detections);
   void locate();
 
+  StateBuffer<double> ranges_;
+  std::uint64_t reboots_ = 0;  // when ranges_ was begun
   std::vector<Detection> selected_;
 };
+
+/// A reboot sets the vehicle's clock back.
+void Geolocator::Implementation::add(const RangeSample& sample) {
+  if (!(sample.distance_m > 0.0) || !std::isfinite(sample.distance_m)) return;
+  if (const auto reboots = state.counters().reboots; reboots != reboots_) {
+    ranges_.clear();
+    reboots_ = reboots;
+  }
+  if (ranges_.insert(sample.time, sample.distance_m)) ++counters.ranges;
+}
+
+/// The distance between two readings that are near to each other in time and length: not across a wall's
+/// edge, and not across a spike.
+std::optional<double> Geolocator::Implementation::range_at(VehicleTime time) const {
+  constexpr double kLongestGap_s = 0.5, kMostChange = 0.2;
+  const auto bracket = ranges_.bracket(time, from_seconds(kLongestGap_s), Duration::zero());
+  if (!bracket) return std::nullopt;
+  const double nearer_m = std::min(bracket->before, bracket->after);
+  if (!(std::abs(bracket->after - bracket->before) <= kMostChange * nearer_m)) return std::nullopt;
+  return bracket->interpolated();
+}
 
 bool Geolocator::Implementation::process(const FrameDetections& frame) {
   ++counters.frames;
@@ -99,13 +129,22 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
     return false;
   }
   ++counters.frames_located;
-  const double reported_m =
-      nominal_view->enu_from_camera.translation.z() - config.projector.ground_height_above_home_m;
-  view = calibrated(*nominal_view, tracker->calibration(), tracker->lift_m(reported_m));
+  if (config.terrain && ground.is_level())
+    ground = GroundModel(config.terrain, *state.local_frame(), config.joint.sigma_ground_m);
+  lift(*nominal_view);
   select(frame.detections);
   locate();
-  tracker->update({located, projector, view, *state.local_frame(), stamp, viewer});
+  tracker->update(
+      {located, projector, view, *state.local_frame(), stamp, viewer, ground, range_at(view.vehicle.time)});
   return true;
+}
+
+/// The joint method's rays meet a level plane at the height of the ground below the vehicle.
+void Geolocator::Implementation::lift(FrameView nominal_view) {
+  const Eigen::Vector3d& camera = nominal_view.enu_from_camera.translation;
+  if (config.method == Method::kJoint) nominal_view.terrain_m = ground.height_m(camera.head<2>());
+  const double reported_m = camera.z() - config.projector.ground_height_above_home_m - nominal_view.terrain_m;
+  view = calibrated(nominal_view, tracker->calibration(), tracker->lift_m(reported_m));
 }
 
 void Geolocator::Implementation::select(const std::vector<Detection>& detections) {
@@ -132,7 +171,9 @@ void Geolocator::Implementation::select(const std::vector<Detection>& detections
 void Geolocator::Implementation::locate() {
   located.clear();
   for (const Detection& detection : selected_) {
-    const auto fix = projector.project(detection.box.centre(), view.enu_from_camera);
+    const auto fix = config.method == Method::kJoint
+                         ? projector.project(detection.box.centre(), view.enu_from_camera)
+                         : projector.project(detection.box.centre(), view.enu_from_camera, ground);
     if (fix) {
       located.push_back({detection, *fix});
     } else {
@@ -153,6 +194,10 @@ void Geolocator::add(const AttitudeSample& sample) {
 
 void Geolocator::add(const PositionSample& sample) {
   implementation_->state.add(sample);
+}
+
+void Geolocator::add(const RangeSample& sample) {
+  implementation_->add(sample);
 }
 
 void Geolocator::on_vehicle_reboot() {
@@ -203,6 +248,10 @@ const StateProvider& Geolocator::state() const {
 
 const Projector& Geolocator::projector() const {
   return implementation_->projector;
+}
+
+const GroundModel& Geolocator::ground() const {
+  return implementation_->ground;
 }
 
 const TrackCounters& Geolocator::track_counters() const {

@@ -14,8 +14,8 @@ Expected<FrameView, NoState> FrameViewer::nominal_view(FrameStamp stamp, double 
 
 FrameView calibrated(FrameView nominal_view, const Calibration& calibration, double lift_m) {
   calibration.turn(nominal_view.enu_from_camera);
-  nominal_view.enu_from_camera.translation.z() += lift_m;
-  nominal_view.lifted_m = lift_m;
+  nominal_view.lifted_m = lift_m - nominal_view.terrain_m;
+  nominal_view.enu_from_camera.translation.z() += nominal_view.lifted_m;
   return nominal_view;
 }
 

@@ -19,7 +19,7 @@ struct FrameViewer {
   Expected<FrameView, NoState> nominal_view(FrameStamp stamp, double latency_s) const;
 };
 
-/// The view turned by the boresight and lifted by `lift_m`.
+/// The view turned by the boresight, and lifted by `lift_m` above the ground below the vehicle (terrain_m).
 FrameView calibrated(FrameView nominal_view, const Calibration& calibration, double lift_m);
 
 }  // namespace geoloc

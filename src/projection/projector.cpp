@@ -12,16 +12,15 @@
 namespace geoloc {
 namespace {
 
-/// Eq. 10 differentiated: P = o + (h / -v_z) v for the unnormalized direction v = R (x, y, 1), moved by the
-/// pixel.
+/// Eq. 10 differentiated: where the unnormalized direction v = R (x, y, 1) is moved by the pixel, the point
+/// o + t v moves by t dv, and along v until it is on the ground's plane again. `slope`: d height / d (east,
+/// north) of that.
 Eigen::Matrix2d ground_from_normalized(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& direction,
-                                       double height_above_ground_m) {
-  const double scale = height_above_ground_m / -direction.z();
-  const Eigen::Matrix<double, 2, 3> ground_from_direction =
-      scale *
-      (Eigen::Matrix<double, 2, 3>() << Eigen::Matrix2d::Identity(), -direction.head<2>() / direction.z())
-          .finished();
-  return ground_from_direction * rotation.leftCols<2>();
+                                       double scale, const Eigen::Vector2d& slope) {
+  const Eigen::Vector3d normal(-slope.x(), -slope.y(), 1.0);
+  const Eigen::Matrix3d onto_ground =
+      Eigen::Matrix3d::Identity() - direction * normal.transpose() / normal.dot(direction);
+  return scale * onto_ground.topRows<2>() * rotation.leftCols<2>();
 }
 
 }  // namespace
@@ -37,32 +36,65 @@ Projector::Projector(const ProjectorConfig& config, const CameraIntrinsics& intr
   throw_if_any(config.problems());
 }
 
-Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel,
-                                              const Rigid3d& enu_from_camera) const {
+/// Checked to come down steeply enough from above the plane.
+struct Projector::PixelRay {
+  Ray<double> ray;
+  Eigen::Matrix3d enu_from_camera;
+  Eigen::Vector3d direction;  // not normalized: one along the optical axis
+  Eigen::Matrix2d normalized_from_pixel;
+
+  GroundFix meeting(double range_m, const Eigen::Vector2d& slope) const {
+    const double scale = range_m / direction.norm();
+    return {ray.at(range_m).head<2>(),
+            ground_from_normalized(enu_from_camera, direction, scale, slope) * normalized_from_pixel,
+            ray.direction, range_m};
+  }
+};
+
+Expected<Projector::PixelRay, NoFix> Projector::ray_of(const Eigen::Vector2d& pixel,
+                                                       const Rigid3d& enu_from_camera) const {
   if (!pixel.allFinite() || !enu_from_camera.translation.allFinite() ||
       !enu_from_camera.rotation.coeffs().allFinite()) {
     return NoFix::kNotFinite;
   }
   const auto image_ray = camera_.ray(pixel);
   if (!image_ray) return NoFix::kNoRay;
-
   const Eigen::Matrix3d rotation = enu_from_camera.rotation.toRotationMatrix();
   const Eigen::Vector3d direction = rotation * image_ray->normalized.homogeneous();
-  const Ray<double> ray{enu_from_camera.translation, direction.normalized()};
-  const Plane<double> ground{Eigen::Vector3d::UnitZ(), config_.ground_height_above_home_m};
+  return PixelRay{{enu_from_camera.translation, direction.normalized()},
+                  rotation,
+                  direction,
+                  image_ray->normalized_from_pixel};
+}
 
-  const double height_above_ground_m = ray.origin.z() - ground.offset_m;
-  if (!(height_above_ground_m > 0.0)) return NoFix::kBelowGround;
+Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel,
+                                              const Rigid3d& enu_from_camera) const {
+  const auto found = ray_of(pixel, enu_from_camera);
+  if (!found) return found.error();
+  const Ray<double>& ray = found->ray;
+  const Plane<double> ground{Eigen::Vector3d::UnitZ(), config_.ground_height_above_home_m};
+  if (!(ray.origin.z() - ground.offset_m > 0.0)) return NoFix::kBelowGround;
   if (!(ray.direction.z() < 0.0)) return NoFix::kAboveHorizon;
   if (!(-ray.direction.z() >= min_depression_sine_)) return NoFix::kTooGrazing;
   const auto range_m = intersect(ray, ground);
   if (!range_m) return NoFix::kAboveHorizon;
   if (!(*range_m <= config_.max_range_m)) return NoFix::kTooFar;
+  return found->meeting(*range_m, Eigen::Vector2d::Zero());
+}
 
-  return GroundFix{
-      ray.at(*range_m).head<2>(),
-      ground_from_normalized(rotation, direction, height_above_ground_m) * image_ray->normalized_from_pixel,
-      ray.direction, *range_m};
+Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera,
+                                              const GroundModel& ground) const {
+  if (ground.is_level()) return project(pixel, enu_from_camera);
+  const auto found = ray_of(pixel, enu_from_camera);
+  if (!found) return found.error();
+  Ray<double> ray = found->ray;
+  ray.origin.z() -= config_.ground_height_above_home_m;
+  if (!(ray.origin.z() > ground.height_m(ray.origin.head<2>()))) return NoFix::kBelowGround;
+  if (!(ray.direction.z() < 0.0)) return NoFix::kAboveHorizon;
+  if (!(-ray.direction.z() >= min_depression_sine_)) return NoFix::kTooGrazing;
+  const auto range_m = intersect(ray, ground, config_.max_range_m);
+  if (!range_m) return NoFix::kTooFar;
+  return found->meeting(*range_m, ground.at(ray.at(*range_m).head<2>()).slope);
 }
 
 void Projector::project(const std::vector<Eigen::Vector2d>& pixels, const Rigid3d& enu_from_camera,
@@ -85,8 +117,22 @@ std::optional<Eigen::Vector2d> Projector::reproject(const Eigen::Vector3d& posit
 
 bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_from_camera,
                      double margin_px) const {
+  return sees_point({position_in_enu.x(), position_in_enu.y(), config_.ground_height_above_home_m},
+                    enu_from_camera, margin_px);
+}
+
+bool Projector::sees_point(const Eigen::Vector3d& position_in_enu, const Rigid3d& enu_from_camera,
+                           double margin_px) const {
   const auto pixel = reproject(position_in_enu, enu_from_camera);
   return pixel && camera_.contains(*pixel, margin_px) && project(*pixel, enu_from_camera).has_value();
+}
+
+bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_from_camera, double margin_px,
+                     const GroundModel& ground) const {
+  Eigen::Vector3d point_in_enu;
+  point_in_enu << position_in_enu, config_.ground_height_above_home_m + ground.height_m(position_in_enu);
+  const auto pixel = reproject(point_in_enu, enu_from_camera);
+  return pixel && camera_.contains(*pixel, margin_px) && project(*pixel, enu_from_camera, ground).has_value();
 }
 
 }  // namespace geoloc

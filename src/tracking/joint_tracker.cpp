@@ -7,8 +7,10 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
 #include "tracking/gaussian.hpp"
+#include "tracking/ground_prior.hpp"
 #include "tracking/identity.hpp"
 #include "tracking/misses.hpp"
+#include "tracking/range_aid.hpp"
 
 namespace geoloc {
 namespace {
@@ -34,14 +36,11 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
   return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
 }
 
-/// Stands for "exactly known": keeps the information finite.
-constexpr double kLeastSigmaGround_m = 1e-3;
-
-/// Objects lie this high above or below a plane.
-PointInformation level_ground(double sigma_m) {
-  PointInformation ground;
-  ground.matrix(2, 2) = 1.0 / std::pow(std::max(sigma_m, kLeastSigmaGround_m), 2);
-  return ground;
+/// Where objects move to another slope of the ground, that is what is known of their height.
+void follow_ground(const GroundModel& ground, TrackTable& tracks) {
+  if (ground.is_level()) return;
+  for (RestingObject& track : tracks)
+    set_ground(track, ground_prior(ground, track.position_in_enu.head<2>(), 0.0));
 }
 
 void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
@@ -60,6 +59,7 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
       solver_(config.prior, config.drift.max_nodes),
       errors_(accuracy_of(config), {config.prior.height_m, config.prior.sigma_height_m},
               NoiseEstimate(config.sigma_attitude_deg * kRadPerDeg), config.drift, solver_),
+      heights_(config.drift.max_nodes),
       noise_clock_(config.fast_time_constant_s, config.attitude_time_constant_s),
       schedule_(config.solve_period_s),
       look_maker_(config_, max_detections),
@@ -84,7 +84,8 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
 
 void JointTracker::update(const LocatedFrame& located) {
   const JointFrame frame = begin_frame(located);
-  const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
@@ -96,15 +97,30 @@ void JointTracker::update(const LocatedFrame& located) {
   if (may_be_twins) schedule_.request();
   cover_known_points(located, shift);
   absorb_matched(looks.at_rest, explanation, frame);
-  begin_tentative(looks.at_rest, explanation, frame);
+  begin_tentative(looks.at_rest, explanation, located.ground, frame);
   tell_neighbours_apart(looks.at_rest, explanation, errors_, config_.merge_radius_m, tracks_);
   remove_improbable();
   moving_.update(looks.moving,
                  {frame, shift, errors_.calibration.covariance.block<2, 2>(Index::kOffset, Index::kOffset),
                   detection_rate_.probability()},
                  book_);
-  if (schedule_.is_due(frame.time())) refine(frame, noise, located.viewer);
+  if (schedule_.is_due(frame.time())) refine(located, frame, noise);
   publish(located.projector);
+}
+
+/// The first reading is where the estimate of the height begins: it may be tens of metres from the prior,
+/// after a take-off elsewhere.
+void JointTracker::measure_height(const LocatedFrame& located, const NodeSpan& now) {
+  if (!located.range_m) return;
+  const auto reading = height_reading(*located.range_m, located.view.vehicle,
+                                      located.projector.config().ground_height_above_home_m, located.ground);
+  if (!reading || !agrees(*reading, errors_, now)) {
+    ++book_.counters.ranges_refused;
+    return;
+  }
+  const bool is_first = book_.counters.ranges_used++ == 0;
+  heights_.add(now, reading->value_m, reading->variance_m2);
+  if (is_first && tracks_.size() == 0) errors_.calibration.mean[Index::kHeight] = reading->value_m;
 }
 
 /// Tracks hold what was whitened with the roots, so that these change with the solution only.
@@ -119,7 +135,8 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   const double ground_height_m =
       located.projector.config().ground_height_above_home_m + located.view.lifted_m;
   if (errors_.drift.size() == 0) {
-    const double reported_m = located.view.enu_from_camera.translation.z() - ground_height_m;
+    const double reported_m =
+        located.view.enu_from_camera.translation.z() - ground_height_m - located.view.terrain_m;
     errors_.height_prior = seen_from(reported_m, errors_.height_prior);
     errors_.calibration.mean[Index::kHeight] = errors_.height_prior.mean_m;
     bound_height(located.projector, located.view);
@@ -132,8 +149,10 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   while (drift.size() > config_.drift.max_nodes) {
     opening_looks_.close();
     for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
+    heights_.freeze_oldest(drift);
     drift.freeze_oldest();
   }
+  measure_height(located, span);
   return {located.projector,
           located.view,
           span,
@@ -160,8 +179,8 @@ void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {
   const Projector& projector = frame.projector;
   const double margin_px = kCoverMargin * projector.camera().intrinsics().height_px;
-  known_points_.cover(frame.local_frame, [&](const Eigen::Vector2d& position_in_enu) {
-    return projector.sees(shift.shown(position_in_enu), frame.view.enu_from_camera, margin_px);
+  known_points_.cover(frame.local_frame, frame.ground, [&](const Eigen::Vector3d& point_in_enu) {
+    return projector.sees_point(shift.shown(point_in_enu), frame.view.enu_from_camera, margin_px);
   });
 }
 
@@ -182,7 +201,9 @@ void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanat
 }
 
 void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
-                                   const JointFrame& frame) {
+                                   const GroundModel& ground, const JointFrame& frame) {
+  const double max_range_m = frame.projector.config().max_range_m;
+  const double share = ground.is_level() ? config_.sigma_ground_share : 0.0;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (explanation.match_of_look[i].track) continue;
     if (tracks_.is_full()) {
@@ -193,7 +214,9 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
     begin_object(track, clutter_rate_.birth_probability(config_.birth_probability),
                  frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
-    track.prior = level_ground(config_.sigma_ground_m);
+    const Point place = ground_point(looks[i], ground, max_range_m);
+    track.ground = ground_prior(ground, place.head<2>(), share * looks[i].camera_height_m);
+    track.prior = track.ground;
     begin_sums(track, looks[i], errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
     track.look = i;
@@ -213,22 +236,23 @@ void JointTracker::remove_improbable() {
   }
 }
 
-void JointTracker::refine(const JointFrame& frame, const FrameNoise& noise, const FrameViewer& viewer) {
+void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise) {
   schedule_.begin_solution(frame.time());
-  const auto solution = solve(frame, viewer);
+  const auto solution = solve(located, frame);
   if (!solution) return;
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
   update_covariances(*solution, tracks_);
   if (!match_known_points(*solution, noise)) return;
-  if (const auto with_known_points = solve(frame, viewer)) update_covariances(*with_known_points, tracks_);
+  if (const auto with_known_points = solve(located, frame)) update_covariances(*with_known_points, tracks_);
 }
 
-std::optional<ArrowheadSolver::Solution> JointTracker::solve(const JointFrame& frame,
-                                                             const FrameViewer& viewer) {
+std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame& located,
+                                                             const JointFrame& frame) {
+  follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
-    opening_looks_.linearise_anew(viewer, frame.projector, look_maker_, errors_, tracks_);
-  const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift);
+    opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
+  const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_);
   if (!solution) return std::nullopt;
   errors_.take(*solution);
   bound_height(frame.projector, frame.view);

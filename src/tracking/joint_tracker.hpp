@@ -44,6 +44,7 @@ class JointTracker final : public Tracker {
  private:
   using Solution = ArrowheadSolver::Solution;
 
+  void measure_height(const LocatedFrame& located, const NodeSpan& now);
   void bound_height(const Projector& projector, const FrameView& view);
   JointFrame begin_frame(const LocatedFrame& frame);
   void learn_noise(const std::vector<Look>& looks, const Explanation& explanation);
@@ -51,10 +52,10 @@ class JointTracker final : public Tracker {
   void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
                       const JointFrame& frame);
   void begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
-                       const JointFrame& frame);
+                       const GroundModel& ground, const JointFrame& frame);
   void remove_improbable();
-  void refine(const JointFrame& frame, const FrameNoise& noise, const FrameViewer& viewer);
-  std::optional<Solution> solve(const JointFrame& frame, const FrameViewer& viewer);
+  void refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise);
+  std::optional<Solution> solve(const LocatedFrame& located, const JointFrame& frame);
   void learn_wandering(const Solution& solution);
   void merge_compatible(const Solution& solution, const JointFrame& frame, const FrameNoise& noise);
   void merge(std::size_t kept, std::size_t gone);
@@ -64,6 +65,7 @@ class JointTracker final : public Tracker {
   const JointTrackerConfig config_;
   ArrowheadSolver solver_;
   SharedErrorEstimate errors_;
+  HeightLog heights_;
   NoiseClock noise_clock_;
   SolutionSchedule schedule_;
   LookMaker look_maker_;

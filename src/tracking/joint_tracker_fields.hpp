@@ -39,8 +39,12 @@ void visit_noise_fields(Visitor& v, JointTrackerConfig& joint) {
           "Share of the position's accuracy that changes from second to second");
   v.field("fast_time_constant_s", joint.fast_time_constant_s, Range::closed(0, 100), "s",
           "Frames within it share this part of their position noise");
-  v.field("sigma_ground_m", joint.sigma_ground_m, Range::closed(0, 1000), "m",
-          "1-sigma of the height of an object above or below the level ground; 0: all lie on the plane");
+  v.field(
+      "sigma_ground_m", joint.sigma_ground_m, Range::closed(0, 1000), "m",
+      "1-sigma of the height of an object above or below the ground, level or of a file; 0: all lie on it");
+  v.field("sigma_ground_share", joint.sigma_ground_share, Range::closed(0, 1), "",
+          "The same over level ground as a share of the camera's height above it; the larger of the two "
+          "counts");
   v.field("sigma_attitude_bias_deg", joint.sigma_attitude_bias_deg, Range::closed(0, 30), "deg",
           "1-sigma of the autopilot's own constant error of roll and pitch, which no look can tell from the "
           "camera's");

@@ -48,7 +48,7 @@ void KnownPointMatcher::add_pairings(std::size_t open, const std::vector<Candida
     if (point.class_id && *point.class_id != candidates[k].class_id) continue;
     if (point_of(candidates[k].track_id)) continue;
     pairing.track = k;
-    pairing.residual = *entries_[open_[open]].position_in_enu - candidates[k].position_in_enu;
+    pairing.residual = entries_[open_[open]].on_ground_in_enu->head<2>() - candidates[k].position_in_enu;
     association_.add(pairing);
   }
 }
@@ -94,7 +94,22 @@ std::optional<std::size_t> KnownPointMatcher::point_of(std::uint64_t track_id) c
 std::optional<KnownPointMatcher::Survey> KnownPointMatcher::survey_of(std::uint64_t track_id) const {
   const auto point = point_of(track_id);
   if (!point) return std::nullopt;
-  return Survey{*entries_[*point].position_in_enu, points_[*point].sigma_m};
+  const KnownPoint& known = points_[*point];
+  return Survey{entries_[*point].on_ground_in_enu->head<2>(), known.sigma_m, known.height_m - level_m(),
+                known.sigma_height_m};
+}
+
+/// Height of the level ground in the points' own datum: such that they stand on the ground in the mean. What
+/// that is off by, the height of the camera is off by too, which is unknown anyway.
+double KnownPointMatcher::level_m() const {
+  double sum_m = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (!(points_[i].sigma_height_m > 0.0)) continue;
+    sum_m += points_[i].height_m - entries_[i].on_ground_in_enu->z();
+    ++count;
+  }
+  return count > 0 ? sum_m / count : 0.0;
 }
 
 }  // namespace geoloc

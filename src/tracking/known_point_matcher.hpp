@@ -8,6 +8,7 @@
 
 #include "calibration/landmark.hpp"
 #include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/projection/ground_model.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "tracking/joint_association.hpp"
 
@@ -35,14 +36,17 @@ class KnownPointMatcher {
   /// What a matched point says of its object.
   struct Survey {
     Eigen::Vector2d position_in_enu;
-    double sigma_m;  ///< 1-sigma per axis
+    double sigma_m;               ///< 1-sigma per axis
+    double up_m = 0.0;            ///< above the level ground
+    double sigma_height_m = 0.0;  ///< 1-sigma; 0: nothing is said of the height
 
-    /// As a prior of the object: nothing is said of its height.
+    /// As a prior of the object.
     PointInformation information() const {
       const double per_axis = 1.0 / (sigma_m * sigma_m);
-      const Point diagonal(per_axis, per_axis, 0.0);
+      const double of_height = sigma_height_m > 0.0 ? 1.0 / (sigma_height_m * sigma_height_m) : 0.0;
+      const Point diagonal(per_axis, per_axis, of_height);
       return {diagonal.asDiagonal(),
-              diagonal.cwiseProduct(Point(position_in_enu.x(), position_in_enu.y(), 0.0))};
+              diagonal.cwiseProduct(Point(position_in_enu.x(), position_in_enu.y(), up_m))};
     }
   };
 
@@ -50,14 +54,16 @@ class KnownPointMatcher {
 
   bool is_empty() const { return points_.empty(); }
 
-  /// Counts the points that a frame covers. `is_covered(position_in_enu)` tells whether the camera looks at a
-  /// place and away from the image's edge.
+  /// Counts the points that a frame covers. `is_covered(point_in_enu)` tells whether the camera looks at a
+  /// place on the ground and away from the image's edge.
   template <typename IsCovered>
-  void cover(const LocalFrame& frame, const IsCovered& is_covered) {
+  void cover(const LocalFrame& frame, const GroundModel& ground, const IsCovered& is_covered) {
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (!entries_[i].position_in_enu)
-        entries_[i].position_in_enu = frame.to_local(points_[i].position).position_in_enu;
-      if (is_covered(*entries_[i].position_in_enu)) ++entries_[i].frames_covered;
+      if (!entries_[i].on_ground_in_enu) {
+        const Eigen::Vector2d place = frame.to_local(points_[i].position).position_in_enu;
+        entries_[i].on_ground_in_enu = {place.x(), place.y(), ground.height_m(place)};
+      }
+      if (is_covered(*entries_[i].on_ground_in_enu)) ++entries_[i].frames_covered;
     }
   }
 
@@ -77,12 +83,13 @@ class KnownPointMatcher {
 
  private:
   struct Entry {
-    std::optional<Eigen::Vector2d> position_in_enu;  // once a frame was seen
+    std::optional<Eigen::Vector3d> on_ground_in_enu;  // once a frame was seen
     int frames_covered = 0;
   };
 
   void list_open();
   void add_pairings(std::size_t open, const std::vector<Candidate>& candidates, const Sigma& sigma);
+  double level_m() const;
   std::optional<std::size_t> point_of(std::uint64_t track_id) const;
 
   std::vector<KnownPoint> points_;

@@ -16,24 +16,28 @@ namespace geoloc {
 struct Look {
   Detection detection;
   LandmarkObservation observation;
-  Eigen::Vector2d position;     ///< east, north [m] on the level ground, corrected by calibration and drift
+  /// East, north [m] where its ray is at the height of the ground below the vehicle (terrain_m), corrected by
+  /// calibration and drift.
+  Eigen::Vector2d position;
   Eigen::Matrix2d pixel_noise;  ///< covariance that the detector's noise causes on the ground [m^2]
   Eigen::Matrix2d frame_noise;  ///< covariance of attitude and position, shared by the looks of a frame [m^2]
   SharedError::Row jacobian;    ///< d position / d shared error, whitened [m]
 
-  /// The slope of the ray that meets the level ground there.
+  /// The slope of the ray that meets a place at the height of `position`.
   Eigen::Vector2d slope_at(const Eigen::Vector2d& place) const {
     return observation.slope + (position - place) / camera_height_m;
   }
 
   /// Where the look's frame shows a point of that height: what is to be compared with `position`.
   Eigen::Vector2d shown(const Point& point_in_enu) const {
-    const double nearer = std::max(0.1, 1.0 - point_in_enu.z() / camera_height_m);
+    const double up_m = point_in_enu.z() - terrain_m;
+    const double nearer = std::max(0.1, 1.0 - up_m / camera_height_m);
     const Eigen::Vector2d place = point_in_enu.head<2>();
-    return place - slope_at(place) * point_in_enu.z() / nearer;
+    return place - slope_at(place) * up_m / nearer;
   }
 
-  double camera_height_m = std::numeric_limits<double>::infinity();  ///< above the level ground
+  double terrain_m = 0.0;  ///< height of `position` above the level ground
+  double camera_height_m = std::numeric_limits<double>::infinity();  ///< above `position`
   double one_per_image = 0.0;    ///< density of one point in an image, on the ground there [1/m^2]
   double clutter_density = 0.0;  ///< false boxes per frame and area [1/m^2]
   double ground_per_pixel_m = 0.0;

@@ -9,6 +9,7 @@
 
 #include "calibration/linearize.hpp"
 #include "geoloc/geometry/angles.hpp"
+#include "tracking/ground_prior.hpp"
 
 namespace geoloc {
 namespace {
@@ -71,8 +72,8 @@ LookMaker::LookMaker(const JointTrackerConfig& config, int max_detections) : con
   if (!config.moving.classes.empty()) looks_.moving.reserve(max_detections);
 }
 
-const FrameLooks& LookMaker::make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,
-                                  const SharedErrorEstimate& errors) {
+FrameLooks& LookMaker::make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,
+                            const SharedErrorEstimate& errors) {
   looks_.at_rest.clear();
   looks_.moving.clear();
   const auto is_moving = [&](const LocatedDetection& located) {
@@ -113,7 +114,6 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   look.observation.value =
       fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
   look.observation.slope = -jacobians.height;
-  look.camera_height_m = height_m + errors.calibration.height_m() - frame.view.lifted_m;
   look.observation.calibration_jacobian = jacobians.calibration;
   look.observation.node_jacobian = jacobians.node;
   look.observation.span = frame.span;
@@ -123,6 +123,8 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
           .inverse();
   look.position =
       look.observation.value + jacobians.calibration * errors.calibration.mean + jacobians.node * frame.drift;
+  look.camera_height_m = height_m + errors.calibration.height_m() - frame.view.lifted_m;
+  place_at_height(look, frame.view.terrain_m);
   look.jacobian =
       errors.whitened<2>(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
   look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * jacobians.calibration.col(Index::kLatency);

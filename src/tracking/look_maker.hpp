@@ -22,8 +22,8 @@ class LookMaker {
   LookMaker(const JointTrackerConfig& config, int max_detections);
 
   /// Duplicates are left out. The reference holds until the next call.
-  const FrameLooks& make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,
-                         const SharedErrorEstimate& errors);
+  FrameLooks& make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,
+                   const SharedErrorEstimate& errors);
 
   /// One of them, which shares the attitude's noise with so many; all but the Jacobian by the frame's noise.
   Look make_look(const LocatedDetection& located, double looks_that_share, const JointFrame& frame,

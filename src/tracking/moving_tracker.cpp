@@ -100,6 +100,7 @@ void MovingTracker::absorb(MovingObject& object, const Look& look, const Context
   // What shifts the looks shifts the track as far as it follows them.
   object.sensitivity += gain.topRows<2>() * (lasting(look.jacobian) - object.sensitivity);
   record_look(object, look, context.frame.time(), context.frame.view.captured_at_host);
+  object.height_m = look.terrain_m;
   object.track.position_in_enu = {object.motion.position(),
                                   object.motion.position_covariance() +
                                       object.sensitivity.lazyProduct(object.sensitivity.transpose()) +
@@ -116,6 +117,7 @@ void MovingTracker::begin(const Look& look, const Context& context, TrackBook& b
   MovingObject& object = objects_.emplace_back();
   begin_object(object, config_.birth_probability, context.frame.view.captured_at_host, book);
   record_look(object, look, context.frame.time(), context.frame.view.captured_at_host);
+  object.height_m = look.terrain_m;
   object.motion = ConstantVelocity::at(look.position, noise_against(look, lasting(look.jacobian)),
                                        config_.moving.sigma_speed_mps);
   object.sensitivity = lasting(look.jacobian);
@@ -129,7 +131,8 @@ void MovingTracker::weigh_missed(const Context& context) {
     MovingObject& object = objects_[k];
     if (object.is_seen) continue;
     ShownObject shown;
-    shown.position_in_enu << object.motion.position() - context.shift.correction(), context.shift.level_m;
+    shown.position_in_enu << object.motion.position() - context.shift.correction(),
+        context.shift.level_m + object.height_m;
     shown.sigma_m = std::sqrt(object.motion.position_covariance().trace());
     shown.size_m = object.size_m;
     object.existence.miss(context.detection_probability * visibility(shown, context.frame.projector,

@@ -20,7 +20,8 @@ struct MovingObject : TrackedObject {
   ConstantVelocity motion;  ///< at the present frame
   /// d position / d shared error of the next looks, whitened [m].
   SharedError::Row sensitivity = SharedError::Row::Zero();
-  bool is_lost = false;  ///< it could be anywhere: no look is its any more
+  double height_m = 0.0;  ///< of the ground where it was seen last, above the level ground
+  bool is_lost = false;   ///< it could be anywhere: no look is its any more
 };
 
 /// Objects of the classes that may move: a Kalman filter with constant velocity each. They use what is known

@@ -31,8 +31,8 @@ OpeningLooks::OpeningLooks() {
 void OpeningLooks::begin_frame(FrameStamp stamp, const JointFrame& frame, double looks_that_share) {
   if (frames_.size() == kMostFrames) is_open_ = false;
   if (!is_open_) return;
-  frames_.push_back({stamp, std::nullopt, frame.time(), frame.span, frame.repetition, looks_that_share,
-                     sightings_.size(), sightings_.size()});
+  frames_.push_back({stamp, std::nullopt, frame.view.terrain_m, frame.time(), frame.span, frame.repetition,
+                     looks_that_share, sightings_.size(), sightings_.size()});
 }
 
 void OpeningLooks::add(std::uint64_t track_id, const Detection& detection) {
@@ -58,8 +58,9 @@ void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& pr
     if (const auto found = viewer.nominal_view(frame.stamp, errors.calibration.latency_s()))
       frame.nominal_view = *found;
     if (!frame.nominal_view) continue;
-    const double reported_m =
-        frame.nominal_view->enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
+    frame.nominal_view->terrain_m = frame.terrain_m;
+    const double reported_m = frame.nominal_view->enu_from_camera.translation.z() - frame.terrain_m -
+                              projector.config().ground_height_above_home_m;
     const FrameView view = calibrated(*frame.nominal_view, errors.calibration, errors.lift_m(reported_m));
     linearise_anew(frame, view, projector, maker, errors, tracks);
   }

@@ -45,6 +45,7 @@ class OpeningLooks {
   struct Frame {
     FrameStamp stamp;
     std::optional<FrameView> nominal_view;  // as last looked up
+    double terrain_m;                       // of the frame's view
     VehicleTime time;                       // as it was taken to be
     NodeSpan span;
     NoiseRepetition repetition;

@@ -40,7 +40,7 @@ void PaperTracker::update(const LocatedFrame& frame) {
   const HostTime captured_at = frame.view.captured_at_host;
   associate(frame.detections);
   update_matched(frame.detections, captured_at);
-  penalise_missed(frame.projector, frame.view.enu_from_camera);
+  penalise_missed(frame);
   start_tentative(frame.detections, captured_at);
   remove_unreliable();
   merge_near_confirmed();
@@ -97,10 +97,11 @@ void PaperTracker::update_matched(const std::vector<LocatedDetection>& detection
   }
 }
 
-void PaperTracker::penalise_missed(const Projector& projector, const Rigid3d& enu_from_camera) {
+void PaperTracker::penalise_missed(const LocatedFrame& frame) {
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     if (track_is_matched_[k] != 0) continue;
-    if (projector.sees(tracks_[k].position_in_enu.mean, enu_from_camera, config_.visible_margin_px)) {
+    if (frame.projector.sees(tracks_[k].position_in_enu.mean, frame.view.enu_from_camera,
+                             config_.visible_margin_px, frame.ground)) {
       ++tracks_[k].penalty;
     }
   }

@@ -39,7 +39,7 @@ class PaperTracker final : public Tracker {
   void associate(const std::vector<LocatedDetection>& detections);
   Eigen::Matrix2d measurement_covariance(const LocatedDetection& located) const;
   void update_matched(const std::vector<LocatedDetection>& detections, HostTime captured_at);
-  void penalise_missed(const Projector& projector, const Rigid3d& enu_from_camera);
+  void penalise_missed(const LocatedFrame& frame);
   void remove_unreliable();
   void start_tentative(const std::vector<LocatedDetection>& detections, HostTime captured_at);
   void merge_near_confirmed();

@@ -60,6 +60,13 @@ void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstima
   object.sigma_height_m = std::sqrt(covariance(2, 2));
 }
 
+void set_ground(RestingObject& object, const PointInformation& ground) {
+  PointInformation change = ground;
+  change += -object.ground;
+  object.ground = ground;
+  add_prior(object, change);
+}
+
 void add_prior(RestingObject& object, const PointInformation& prior) {
   object.prior += prior;
   object.landmark->add_prior(prior);
@@ -71,7 +78,9 @@ void merge_sums(RestingObject& kept, const RestingObject& gone, const DriftTimel
   kept.landmark->merge(*gone.landmark, drift);
   kept.landmark->add_prior(-once_too_often);
   kept.pixel_information += gone.pixel_information - once_too_often.matrix;
-  if (gone.is_known) kept.prior = gone.prior;
+  if (!gone.is_known) return;
+  kept.prior = gone.prior;
+  kept.ground = gone.ground;
 }
 
 }  // namespace geoloc

@@ -26,6 +26,7 @@ struct RestingObject : TrackedObject {
   bool is_compared = false;               ///< with the others, since it can be
   bool is_known = false;                  ///< its surveyed place is in the sums
   PointInformation prior;                 ///< by the ground, and by a survey; in the sums
+  PointInformation ground;                ///< that of the ground alone
   Point position_in_enu = Point::Zero();  ///< up: above the level ground [m]
   double sigma_height_m = 0.0;
   VehicleTime sums_since{};                             ///< earlier looks are not in the sums
@@ -55,6 +56,9 @@ void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstima
 
 /// No look is in the sums.
 void clear_sums(RestingObject& object);
+
+/// The ground at the object's place says this, and no longer what it said before.
+void set_ground(RestingObject& object, const PointInformation& ground);
 
 /// More is known of the object from elsewhere.
 void add_prior(RestingObject& object, const PointInformation& prior);

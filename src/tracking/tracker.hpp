@@ -7,6 +7,7 @@
 #include "geoloc/calibration/calibration.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/projection/ground_fix.hpp"
+#include "geoloc/projection/ground_model.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "geoloc/tracking/track.hpp"
@@ -23,6 +24,8 @@ struct LocatedFrame {
   const LocalFrame& local_frame;  ///< of all positions; the same throughout a flight
   FrameStamp stamp;
   const FrameViewer& viewer;  ///< made `view`
+  const GroundModel& ground;
+  std::optional<double> range_m;  ///< a rangefinder's distance down the body's axis at the view's time
 };
 
 /// Makes objects of the fixes of one frame after another.
@@ -44,7 +47,7 @@ class Tracker {
   virtual const Calibration& calibration() const = 0;
 
   /// By how much the camera is to be lifted so that the ground lies in the projector's plane [m], where the
-  /// vehicle reports it to be so high above that plane. Zero where the method learns no height.
+  /// vehicle reports it to be so high above the ground. Zero where the method learns no height.
   virtual double lift_m(double reported_height_above_ground_m) const = 0;
 
   /// An estimate of the camera's errors alone: the autopilot's own are part of its sigma. nullopt where the

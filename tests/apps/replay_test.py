@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
+import re
 import shutil
+import subprocess
 import unittest
 
 from support import AppTest, rmse_m, run, tree
@@ -87,6 +89,72 @@ class Priors(AppTest):
             result = run("geoloc_replay", self.recording, *options)
             self.assertEqual(result.status, 2)
             self.assertIn("--known-points" if "paper" in options else "missing.geojson", result.err)
+
+
+@unittest.skipUnless(shutil.which("gdal_translate"), "needs gdal-bin")
+class Ground(AppTest):
+    """An elevation model of the simulated hills, as users have them, helps where hills are steep."""
+
+    def setUp(self):
+        super().setUp()
+        self.recording = self.folder / "hills"
+        done = run("geoloc_sim", "--record", self.recording, "--hills-m", 5, "--seed", 1)
+        self.assertEqual(done.status, 0, done.err)
+        self.model = self.folder / "utm.tif"
+        subprocess.run(["gdalwarp", "-q", "-t_srs", "EPSG:32723", "-r", "bilinear", "-dstnodata", "-9999",
+                        self.recording / "terrain.asc", self.model], check=True)
+
+    def replay(self, *options):
+        result = run("geoloc_replay", self.recording, "--out", self.folder / "objects.geojson", *options)
+        self.assertEqual(result.status, 0, result.err)
+        return int(re.search(r"found (\d+) / 30", result.err)[1]), rmse_m(result.err), result.err
+
+    def test_a_geotiff_in_a_projection_is_at_least_as_good_as_none(self):
+        found_without, without, _ = self.replay()
+        found, with_model, messages = self.replay("--ground", self.model)
+        self.assertIn(f"ground: {self.model}: ", messages)
+        self.assertIn("mean sea level is assumed", messages)
+        self.assertLessEqual(found_without, found)
+        self.assertEqual(found, 30)
+        self.assertLess(with_model, without + 0.005)
+        self.assertIn("extra 0", messages)
+
+    def test_a_model_that_is_believed_is_no_worse(self):
+        _, doubted, _ = self.replay("--ground", self.model)
+        found, believed, _ = self.replay("--ground", self.model, "--ground-sigma-m", 0.3)
+        self.assertEqual(found, 30)
+        self.assertLess(believed, doubted + 0.005)
+
+    def test_a_model_of_another_place_is_named_and_does_no_harm(self):
+        elsewhere = self.folder / "elsewhere.tif"
+        subprocess.run(["gdal_translate", "-q", "-a_srs", "EPSG:4326", "-a_ullr", "7", "47", "7.01", "46.99",
+                        self.recording / "terrain.asc", elsewhere], check=True)
+        found, _, messages = self.replay("--ground", elsewhere)
+        self.assertIn("of another place", messages)
+        self.assertGreaterEqual(found, 28)
+        self.assertNotIn("of another place", self.replay("--ground", self.model)[2])
+
+    def test_ground_that_is_free_needs_no_model(self):
+        self.assertEqual(self.replay("--ground", "free")[0], 30)
+
+    def test_a_rangefinders_readings_are_counted(self):
+        done = run("geoloc_sim", "--record", self.folder / "ranges", "--rangefinder", "--ground-above-home-m", 20, "--seed", 1,
+                   "--start-s", 80, "--end-s", 100)
+        self.assertEqual(done.status, 0, done.err)
+        self.recording = self.folder / "ranges"
+        self.replay()
+        counters = json.loads((self.folder / "objects.geojson").read_text())["counters"]
+        self.assertGreater(counters["ranges_used"], 100)
+        self.assertLess(counters["ranges_refused"], 20)
+
+    def test_unusable_models_are_refused_before_anything_starts(self):
+        text = self.write("text.tif", "no picture")
+        for options in (["--ground", "missing.tif"], ["--ground", text], ["--ground", self.folder],
+                        ["--ground", "free", "--ground-sigma-m", 1], ["--ground-sigma-m", "nan"], ["--ground-sigma-m", -1]):
+            with self.subTest(options):
+                result = run("geoloc_replay", self.recording, "--out", self.folder / "none.geojson", *options)
+                self.assert_refused(result, options[1] if options[1] != "free" else "--ground-sigma-m")
+                self.assertFalse((self.folder / "none.geojson").exists())
 
 
 class BadRecordings(AppTest):

@@ -68,7 +68,7 @@ class ArrowheadProblem : public ::testing::Test {
 
   /// Solves and takes the solution over, as the estimate of shared errors does.
   ArrowheadSolver::Solution solve(ArrowheadSolver& solver, const std::vector<const Landmark*>& landmarks) {
-    const auto solution = solver.solve(landmarks, kFlight, drift_);
+    const auto solution = solver.solve(landmarks, kFlight, drift_, heights_);
     EXPECT_TRUE(solution);
     calibration_ = solution->calibration();
     for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
@@ -135,6 +135,13 @@ class ArrowheadProblem : public ::testing::Test {
       rows.push_back(Eigen::RowVectorXd::Unit(size, 3 * object + 2) / kSigmaGround_m);
       values.push_back(kGround_m / kSigmaGround_m);
     }
+    for (const HeightObservation& seen : heights_.observations()) {
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Unit(size, head + CalibrationIndex::kHeight);
+      row[node_column(seen.span.first) + 2] = 1.0 - seen.span.weight_of_second;
+      row[node_column(seen.span.first + 1) + 2] = seen.span.weight_of_second;
+      rows.push_back(std::sqrt(seen.information) * row);
+      values.push_back(std::sqrt(seen.information) * seen.value_m);
+    }
     const Calibration prior = solver_.prior(kFlight);
     for (int i = 0; i < CalibrationIndex::kSize; ++i) {
       rows.push_back(Eigen::RowVectorXd::Unit(size, head + i) / prior.sigma(i));
@@ -176,6 +183,7 @@ class ArrowheadProblem : public ::testing::Test {
   CalibrationPrior prior_;
   ArrowheadSolver solver_{prior_, DriftConfig{}.max_nodes};
   Calibration calibration_;
+  HeightLog heights_{DriftConfig{}.max_nodes};
   std::vector<Landmark> landmarks_;
   std::vector<Look> looks_;
 };
@@ -194,6 +202,22 @@ TEST_F(ArrowheadProblem, SolutionAndCovariancesAreThoseOfDenseLeastSquares) {
 }
 
 /// As on a flight, each object is seen at a few nodes only: none before those concerns it.
+TEST_F(ArrowheadProblem, HeightsSeenBesidesAreRowsOfDenseLeastSquares) {
+  make(5, 200, 40.0);
+  const double begin_s = seconds(drift_.node(drift_.begin()).time.time_since_epoch());
+  for (const double time_s : {2.0, 13.0, 13.5, 39.0}) {
+    std::uint32_t first = drift_.begin();
+    while (begin_s + 5.0 * (first + 1) < time_s) ++first;
+    heights_.add({first, time_s / 5.0 - first}, 0.4 + 0.01 * time_s, 0.3);
+  }
+  ASSERT_EQ(heights_.observations().size(), 3U);
+  const ArrowheadSolver::Solution solution = solve();
+  const Dense expected = dense({0, 1, 2, 3, 4});
+  EXPECT_LT((calibration_.mean - expected.calibration_mean()).norm(), 1e-8);
+  EXPECT_LT((calibration_.covariance - expected.calibration_covariance()).norm(), 1e-8);
+  expect_objects_of(solution, expected);
+}
+
 TEST_F(ArrowheadProblem, ObjectsSeenOneAfterAnotherAreThoseOfDenseLeastSquares) {
   make(5, 400, 170.0, Order::kOneAfterAnother);
   const ArrowheadSolver::Solution solution = solve();

@@ -34,6 +34,9 @@ class DistrustfulSink : public io::TelemetrySink {
     require(!sample.sigma_horizontal_m || *sample.sigma_horizontal_m > 0.0);
     require(sample.time.time_since_epoch() >= 0ns);
   }
+  void on_range(const RangeSample& sample) override {
+    require(sample.distance_m > 0.0 && std::isfinite(sample.distance_m));
+  }
   void on_reboot() override {}
   void on_frame(HostTime, const std::uint8_t* frame, std::size_t size) override {
     require(size >= 8 && size <= 280 && (frame[0] == 0xFD || frame[0] == 0xFE));

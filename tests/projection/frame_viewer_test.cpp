@@ -127,5 +127,17 @@ TEST_F(FrameViews, FollowWhatTheVehicleReportsSince) {
   EXPECT_LT((viewer.nominal_view(stamp, 0.1)->enu_from_camera.translation - place_at(2.9)).norm(), 1e-3);
 }
 
+/// The ground 7 m above the level one comes to lie in the projector's plane: the camera stands 13 m above
+/// that ground, and 2 m more by the calibration.
+TEST_F(FrameViews, StandAboveTheGroundBelowTheVehicle) {
+  FrameView nominal;
+  nominal.enu_from_camera.translation = {3.0, 4.0, 20.0};
+  nominal.terrain_m = 7.0;
+  const FrameView view = calibrated(nominal, Calibration{}, 2.0);
+  EXPECT_EQ(view.enu_from_camera.translation, Eigen::Vector3d(3.0, 4.0, 15.0));
+  EXPECT_EQ(view.lifted_m, -5.0);
+  EXPECT_EQ(view.terrain_m, 7.0);
+}
+
 }  // namespace
 }  // namespace geoloc

@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kMatchGate = 11.8, kMatchAmbiguity = 9.0;
 const LocalFrame kFrame({-22.906, -43.133});
+const GroundModel kLevel(3.0);
 
 KnownPoint point_at(const Eigen::Vector2d& position_in_enu) {
   KnownPoint point;
@@ -17,7 +18,7 @@ KnownPoint point_at(const Eigen::Vector2d& position_in_enu) {
 
 void cover(KnownPointMatcher& known, int frames) {
   for (int frame = 0; frame < frames; ++frame)
-    known.cover(kFrame, [](const Eigen::Vector2d&) { return true; });
+    known.cover(kFrame, kLevel, [](const Eigen::Vector3d&) { return true; });
 }
 
 /// Looked at long enough.
@@ -53,6 +54,23 @@ TEST(KnownPoints, SayWhereTheirObjectsAreAndNothingOfTheirHeights) {
   EXPECT_EQ(information.vector, Point(80.0, -28.0, 0.0));
 }
 
+/// 7 m and 4 m above anything: on level ground they stand 1.5 m above and below it. A third one without a
+/// height says nothing.
+TEST(KnownPoints, WithHeightsStandOnTheGroundInTheMean) {
+  KnownPoint high = point_at({0, 0}), low = point_at({20, 0});
+  high.height_m = 1007.0;
+  low.height_m = 1004.0;
+  high.sigma_height_m = low.sigma_height_m = 0.1;
+  KnownPointMatcher known = covered({high, low, point_at({40, 0})});
+  ASSERT_TRUE(match(known, {{1, true, 0, {0, 0}}, {2, true, 0, {20, 0}}, {3, true, 0, {40, 0}}}));
+  const PointInformation of_high = known.survey_of(1)->information();
+  const PointInformation of_low = known.survey_of(2)->information();
+  EXPECT_NEAR(of_high.matrix(2, 2), 100.0, 1e-9);
+  EXPECT_NEAR(of_high.vector.z(), 150.0, 1e-9);
+  EXPECT_NEAR(of_low.vector.z(), -150.0, 1e-9);
+  EXPECT_EQ(known.survey_of(3)->information().matrix(2, 2), 0.0);
+}
+
 TEST(KnownPoints, ThatContradictEachOtherAreNotBelieved) {
   KnownPointMatcher known = covered({point_at({0, 0}), point_at({20, 0})});
   EXPECT_FALSE(match(known, {{1, true, 0, {0.8, 0.0}}, {2, true, 0, {19.0, 0.0}}}));
@@ -74,7 +92,7 @@ TEST(KnownPoints, WaitUntilTheCameraHasLookedAtTheirPlaceInTwentyFrames) {
   for (int frame = 0; frame < 20; ++frame) {
     EXPECT_FALSE(match(known, candidates)) << frame;
     EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kNotCovered);
-    known.cover(kFrame, [](const Eigen::Vector2d& place) { return place.x() < 10.0; });
+    known.cover(kFrame, kLevel, [](const Eigen::Vector3d& place) { return place.x() < 10.0; });
   }
   EXPECT_TRUE(match(known, candidates));
   EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kMatched);
@@ -83,9 +101,9 @@ TEST(KnownPoints, WaitUntilTheCameraHasLookedAtTheirPlaceInTwentyFrames) {
 
 TEST(KnownPoints, AreMatchedOnce) {
   KnownPointMatcher known({point_at({0, 0}), point_at({20, 0})}, 10);
-  known.cover(kFrame, [](const Eigen::Vector2d&) { return false; });
+  known.cover(kFrame, kLevel, [](const Eigen::Vector3d&) { return false; });
   for (int frame = 0; frame < 20; ++frame)
-    known.cover(kFrame, [](const Eigen::Vector2d& place) { return place.x() < 10.0; });
+    known.cover(kFrame, kLevel, [](const Eigen::Vector3d& place) { return place.x() < 10.0; });
   const std::vector<KnownPointMatcher::Candidate> candidates{{7, true, 0, {0.1, 0.0}},
                                                              {8, true, 0, {20.1, 0.0}}};
   EXPECT_TRUE(match(known, candidates));
@@ -102,7 +120,7 @@ TEST(KnownPoints, DoNotShareAnObject) {
   ASSERT_TRUE(match(known, {{7, true, 0, {0.1, 0.0}}}));
   KnownPointMatcher two({point_at({0, 0}), point_at({0.6, 0})}, 10);
   for (int frame = 0; frame < 20; ++frame)
-    two.cover(kFrame, [](const Eigen::Vector2d& place) { return place.x() < 0.3; });
+    two.cover(kFrame, kLevel, [](const Eigen::Vector3d& place) { return place.x() < 0.3; });
   ASSERT_TRUE(match(two, {{7, true, 0, {0.1, 0.0}}}));
   cover(two, 20);
   EXPECT_FALSE(match(two, {{7, true, 0, {0.1, 0.0}}}));

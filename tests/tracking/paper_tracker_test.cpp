@@ -32,12 +32,13 @@ class PaperTrackerLife : public ::testing::Test {
     FrameView view;
     view.enu_from_camera = enu_from_body * body_from_camera(mount_);
     view.captured_at_host = now_;
-    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_});
+    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_, ground_, std::nullopt});
   }
 
   const std::vector<Track>& tracks() const { return tracker_->tracks(); }
 
   Projector projector_{ProjectorConfig{}, CameraIntrinsics{}};
+  const GroundModel ground_{3.0};
   PaperTrackerConfig config_;
   LocalFrame local_frame_{Geodetic{}};
   const StateProvider state_{StateConfig{}};
@@ -172,10 +173,10 @@ TEST_F(PaperTrackerLife, TrustsADetectionLessThatTrustsItselfLess) {
     tracker_.emplace(config_, 64);
     located.fix.position_in_enu = {0.0, 0.0};
     std::vector<LocatedDetection> detections{located};
-    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_});
+    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_, ground_, std::nullopt});
     EXPECT_NEAR(tracks()[0].position_in_enu.covariance(0, 0), r + 9.0, 1e-12);
     detections[0].fix.position_in_enu.x() = share * gate_m;
-    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_});
+    tracker_->update({detections, projector_, view, local_frame_, {}, viewer_, ground_, std::nullopt});
     ASSERT_EQ(tracks().size(), share < 1.0 ? 1U : 2U);
     if (share > 1.0) continue;
     EXPECT_NEAR(tracks()[0].position_in_enu.mean.x(), 0.5 * share * gate_m, 1e-9);

@@ -19,6 +19,7 @@
 
 namespace geoloc {
 
+class GroundModel;
 class Projector;
 class StateProvider;
 
@@ -34,6 +35,7 @@ class Geolocator {
     std::uint64_t frames_unusable = 0;     ///< that will never have one
     std::uint64_t detections = 0;          ///< in located frames
     std::uint64_t detections_dropped = 0;  ///< beyond max_detections, or with numbers that cannot be
+    std::uint64_t ranges = 0;              ///< a rangefinder's readings that were taken in
     std::uint64_t detections_at_edge = 0;  ///< not used: cut by the image's edge, perhaps
     std::array<std::uint64_t, kNoFixReasons> no_fix{};  ///< detections without a ground point, by NoFix
   };
@@ -47,6 +49,7 @@ class Geolocator {
   /// Samples may come in any order and at any rate; what cannot be used is counted (state().counters()).
   void add(const AttitudeSample& sample);
   void add(const PositionSample& sample);
+  void add(const RangeSample& sample);
 
   /// The vehicle's clock began anew. Needed only where the caller knows before three samples have shown it.
   void on_vehicle_reboot();
@@ -80,6 +83,9 @@ class Geolocator {
   const GeolocatorConfig& config() const;
   const StateProvider& state() const;
   const Projector& projector() const;
+
+  /// Its heights count from the projector's plane. Level until the vehicle's first position is known.
+  const GroundModel& ground() const;
   const TrackCounters& track_counters() const;
   const Counters& counters() const;
 

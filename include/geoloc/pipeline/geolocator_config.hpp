@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/projection/ground_fix.hpp"
+#include "geoloc/projection/height_grid.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "geoloc/tracking/known_points.hpp"
@@ -31,6 +33,9 @@ struct GeolocatorConfig {
   PaperTrackerConfig paper;
   JointTrackerConfig joint;
   std::vector<KnownPoint> known_points;  ///< of Method::kJoint
+  /// Heights of the ground, all of which may be off by the same; nullptr: it is level. It is no setting, and
+  /// in no configuration file.
+  std::shared_ptr<const HeightGrid> terrain;
 
   /// Every fault at once, named by its path; empty where a Geolocator can be built.
   std::vector<std::string> problems() const;

@@ -63,6 +63,8 @@ struct FrameView {
   HostTime captured_at_host;
   double lifted_m = 0.0;   ///< by so much
   double latency_s = 0.0;  ///< the vehicle's state is that of so long before the frame's stamp
+  /// What lies in the projector's plane: the ground below the vehicle, so high above the level ground.
+  double terrain_m = 0.0;
 };
 
 }  // namespace geoloc

@@ -9,10 +9,12 @@
 #include "geoloc/geometry/expected.hpp"
 #include "geoloc/geometry/rigid3.hpp"
 #include "geoloc/projection/ground_fix.hpp"
+#include "geoloc/projection/ground_model.hpp"
 
 namespace geoloc {
 
-/// Pixel to ground point on a horizontal plane, and back (paper, eq. 7-10).
+/// Pixel to ground point on a horizontal plane, and back (paper, eq. 7-10); or on ground that rises and falls
+/// about that plane.
 class Projector {
  public:
   /// Throws std::invalid_argument naming every problem.
@@ -20,6 +22,10 @@ class Projector {
 
   /// `enu_from_camera`: pose at the capture time, up measured from home.
   Expected<GroundFix, NoFix> project(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera) const;
+
+  /// On the ground, whose heights count from the plane.
+  Expected<GroundFix, NoFix> project(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera,
+                                     const GroundModel& ground) const;
 
   /// All pixels of one frame; fixes[i] belongs to pixels[i]. `fixes` is overwritten, within its capacity.
   void project(const std::vector<Eigen::Vector2d>& pixels, const Rigid3d& enu_from_camera,
@@ -35,10 +41,21 @@ class Projector {
   /// In the image, at least margin_px from its edge, and where project() would answer.
   bool sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_from_camera, double margin_px) const;
 
+  /// The same of a point anywhere.
+  bool sees_point(const Eigen::Vector3d& position_in_enu, const Rigid3d& enu_from_camera,
+                  double margin_px) const;
+
+  /// The same of a place on the ground.
+  bool sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_from_camera, double margin_px,
+            const GroundModel& ground) const;
+
   const CameraModel& camera() const { return camera_; }
   const ProjectorConfig& config() const { return config_; }
 
  private:
+  struct PixelRay;
+  Expected<PixelRay, NoFix> ray_of(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera) const;
+
   ProjectorConfig config_;
   CameraModel camera_;
   double min_depression_sine_;

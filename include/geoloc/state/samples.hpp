@@ -26,4 +26,10 @@ struct PositionSample {
   std::optional<double> sigma_horizontal_m;  ///< 1-sigma that the receiver claims, where it does
 };
 
+/// The distance to the ground that a rangefinder looking down the body's axis measures.
+struct RangeSample {
+  VehicleTime time;
+  double distance_m = 0.0;
+};
+
 }  // namespace geoloc

@@ -35,7 +35,8 @@ struct JointTrackerConfig {
   double least_offset_sigma_m = 0.04;
   double fast_share = 0.25;  ///< of the position's accuracy: changes from second to second
   double fast_time_constant_s = 1.0;
-  double sigma_ground_m = 3.0;  ///< of an object's height above or below the level ground
+  double sigma_ground_m = 3.0;      ///< of an object's height above or below the ground
+  double sigma_ground_share = 0.0;  ///< the same over level ground, as a share of the camera's height
 
   // Constant errors of the autopilot's state, which no look can tell from the camera's.
   double sigma_attitude_bias_deg = 0.12;

@@ -15,6 +15,8 @@ struct KnownPoint {
   std::string name;
   Geodetic position;
   double sigma_m = 0.05;        ///< 1-sigma per axis of the survey
+  double height_m = 0.0;        ///< above any level that is the same for all points
+  double sigma_height_m = 0.0;  ///< 1-sigma of it; 0: the height is not known
   std::optional<int> class_id;  ///< unset: any
 
   std::vector<std::string> problems() const;

@@ -68,12 +68,14 @@ inline void merge_records(Track& kept, const Track& gone) {
   if (gone.status == TrackStatus::kConfirmed) kept.status = TrackStatus::kConfirmed;
 }
 
-/// What became of tracks since the start.
+/// What became of tracks since the start, and of a rangefinder's readings.
 struct TrackCounters {
   std::uint64_t created = 0;
   std::uint64_t removed = 0;
   std::uint64_t merged = 0;
   std::uint64_t refused = 0;  ///< for want of room
+  std::uint64_t ranges_used = 0;
+  std::uint64_t ranges_refused = 0;  ///< they disagree with what looks tell of the height
 };
 
 }  // namespace geoloc

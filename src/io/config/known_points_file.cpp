@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/config/known_points_file.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -11,6 +12,9 @@ namespace geoloc::io {
 namespace {
 
 using nlohmann::json;
+
+/// As the survey's of positions, where the file states none.
+constexpr double kSigmaHeight_m = 0.05;
 
 double number(const json& value, const char* what) {
   if (!value.is_number()) throw std::invalid_argument(std::string(what) + " must be a number");
@@ -29,10 +33,17 @@ KnownPoint parse_point(const json& feature, std::size_t place) {
   KnownPoint point;
   point.position = {number(coordinates[1], "latitude"), number(coordinates[0], "longitude")};
   const json& properties = member(feature, "properties");
+  if (coordinates.size() > 2) {
+    point.height_m = number(coordinates[2], "height");
+    point.sigma_height_m = kSigmaHeight_m;
+  }
   const json& id = member(properties, "id");
   point.name = id.is_string() ? id.get<std::string>() : id.is_number() ? id.dump() : std::to_string(place);
   if (const json& sigma = member(properties, "sigma_m"); !sigma.is_null())
     point.sigma_m = number(sigma, "sigma_m");
+  const json& sigma_height = member(properties, "sigma_height_m");
+  if (!sigma_height.is_null() && coordinates.size() > 2)
+    point.sigma_height_m = number(sigma_height, "sigma_height_m");
   if (const json& class_id = member(properties, "class_id"); !class_id.is_null()) {
     if (!class_id.is_number_unsigned() || class_id.get<std::uint64_t>() > 1'000'000)
       throw std::invalid_argument("class_id must be a whole number from 0");
@@ -41,6 +52,13 @@ KnownPoint parse_point(const json& feature, std::size_t place) {
   for (const std::string& problem : point.problems())
     throw std::invalid_argument(problem + " (lon, lat order?)");
   return point;
+}
+
+/// Programs that know no heights write zeros.
+void forget_if_all_zero(std::vector<KnownPoint>& points) {
+  const auto is_zero = [](const KnownPoint& point) { return point.height_m == 0.0; };
+  if (!std::all_of(points.begin(), points.end(), is_zero)) return;
+  for (KnownPoint& point : points) point.sigma_height_m = 0.0;
 }
 
 }  // namespace
@@ -60,6 +78,7 @@ std::vector<KnownPoint> parse_known_points(const std::string& text, const std::s
     }
   }
   if (points.empty()) throw std::runtime_error(name + ": holds no point");
+  forget_if_all_zero(points);
   return points;
 }
 

@@ -71,6 +71,24 @@ Message decode_position(const Frame& frame) {
   return sample;
 }
 
+/// Sensors report what is out of their range at its ends, or beyond.
+Message decode_distance_sensor(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_distance_sensor_decode);
+  constexpr std::uint8_t kInvalidSignal = 1;  // 0: not stated
+  const bool is_measured = fields.current_distance > fields.min_distance &&
+                           fields.current_distance < fields.max_distance &&
+                           fields.signal_quality != kInvalidSignal;
+  if (fields.orientation != MAV_SENSOR_ROTATION_PITCH_270 || !is_measured) return NotDecoded{};
+  return RangeMessage{boot_time(fields.time_boot_ms), fields.current_distance / 1e2};
+}
+
+Message decode_rangefinder(const Frame& frame) {
+  const double distance_m = unpack(frame, mavlink_msg_rangefinder_decode).distance;
+  if (!(std::abs(distance_m) <= kLargestHeight_m)) return RefusedValues{};
+  if (!(distance_m > 0.0)) return NotDecoded{};  // out of range
+  return RangeMessage{std::nullopt, distance_m};
+}
+
 Message decode_gnss_status(const Frame& frame) {
   const auto fields = unpack(frame, mavlink_msg_gps_raw_int_decode);
   GnssStatus status;
@@ -124,6 +142,10 @@ Message decode(const Frame& frame) {
       return decode_attitude_quaternion(frame);
     case MAVLINK_MSG_ID_GLOBAL_POSITION_INT:
       return decode_position(frame);
+    case MAVLINK_MSG_ID_DISTANCE_SENSOR:
+      return decode_distance_sensor(frame);
+    case MAVLINK_MSG_ID_RANGEFINDER:
+      return decode_rangefinder(frame);
     case MAVLINK_MSG_ID_GPS_RAW_INT:
       return decode_gnss_status(frame);
     case MAVLINK_MSG_ID_EKF_STATUS_REPORT:

@@ -23,18 +23,22 @@ constexpr Duration kTextPeriod = 500ms;
 constexpr std::size_t kMostTexts = 20;  // waiting; older ones would be out of date
 /// For this long after an ATTITUDE, ATTITUDE_QUATERNION adds nothing new.
 constexpr Duration kEulerSilence = 1s;
+/// For this long after a DISTANCE_SENSOR, RANGEFINDER adds nothing new.
+constexpr Duration kRangeSilence = 2s;
 /// Recordings keep whole microseconds. In a vehicle's answer, the digits below those show that the request
 /// was ours.
 constexpr std::int64_t kNanosecondsPerStamp = 1000;
 
 std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot) {
   constexpr std::uint32_t kSystemTime = 2, kGpsRawInt = 24, kAttitude = 30, kGlobalPositionInt = 33;
-  constexpr std::uint32_t kEkfStatusReport = 193, kEstimatorStatus = 230;
+  constexpr std::uint32_t kDistanceSensor = 132, kEkfStatusReport = 193, kEstimatorStatus = 230;
   constexpr std::uint8_t kNone = 0, kExtendedStatus = 2, kPosition = 6, kExtra1 = 10, kExtra3 = 12;
   std::vector<WantedStream> streams{{kAttitude, config.attitude_rate_hz, kExtra1},
                                     {kGlobalPositionInt, config.position_rate_hz, kPosition},
                                     {kGpsRawInt, 2.0, kExtendedStatus},
                                     {kSystemTime, 1.0, kExtra3}};
+  if (config.rangefinder_rate_hz > 0.0)
+    streams.push_back({kDistanceSensor, config.rangefinder_rate_hz, kExtra3});
   if (is_ardupilot) streams.push_back({kEkfStatusReport, 2.0, kExtra3});
   if (!is_ardupilot) streams.push_back({kEstimatorStatus, 1.0, kNone});
   return streams;
@@ -139,6 +143,20 @@ void VehicleLink::handle(const PositionSample& message, const Arrival& arrival) 
   PositionSample sample = message;
   if (gate_.gnss()) sample.sigma_horizontal_m = gate_.gnss()->sigma_horizontal_m;
   arrival.sink.on_position(sample);
+}
+
+/// RANGEFINDER tells what DISTANCE_SENSOR does, without the time: it is used where that does not come.
+void VehicleLink::handle(const RangeMessage& message, const Arrival& arrival) {
+  if (message.time) {
+    if (!accept_stamp(*message.time, arrival)) return;
+    last_stamped_range_ = arrival.at;
+  } else if (last_stamped_range_ && arrival.at - *last_stamped_range_ < kRangeSilence) {
+    return;
+  }
+  const auto time = message.time ? message.time : clock_.to_vehicle(arrival.at);
+  if (!time) return;
+  ++counts_.ranges;
+  arrival.sink.on_range({*time, message.distance_m});
 }
 
 void VehicleLink::handle(const Timesync& message, const Arrival& arrival) {

@@ -25,6 +25,8 @@ RunCounters counters_of(const Geolocator& geolocator) {
   counters.tracks_created = tracks.created;
   counters.tracks_removed = tracks.removed;
   counters.tracks_merged = tracks.merged;
+  counters.ranges_used = tracks.ranges_used;
+  counters.ranges_refused = tracks.ranges_refused;
   return counters;
 }
 

@@ -41,7 +41,9 @@ ordered_json counters_to_json(const RunCounters& counters) {
           {"reboots", counters.reboots},
           {"tracks_created", counters.tracks_created},
           {"tracks_removed", counters.tracks_removed},
-          {"tracks_merged", counters.tracks_merged}};
+          {"tracks_merged", counters.tracks_merged},
+          {"ranges_used", counters.ranges_used},
+          {"ranges_refused", counters.ranges_refused}};
 }
 
 ordered_json calibration_to_json(const std::optional<Calibration>& calibration) {

@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/projection/ground_model.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
 
@@ -31,8 +32,9 @@ Course course_of(const Eigen::Vector2d& velocity_in_enu) {
 
 HeightReport height_of(const Track& track, const Geolocator& geolocator) {
   HeightReport height;
-  height.above_home_m =
-      track.height ? track.height->above_home_m : geolocator.projector().config().ground_height_above_home_m;
+  height.above_home_m = track.height ? track.height->above_home_m
+                                     : geolocator.projector().config().ground_height_above_home_m +
+                                           geolocator.ground().height_m(track.position_in_enu.mean);
   if (track.height) height.sigma_m = track.height->sigma_m;
   if (const auto home_msl_m = geolocator.state().home_height_msl_m())
     height.msl_m = *home_msl_m + height.above_home_m;

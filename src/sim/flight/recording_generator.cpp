@@ -83,6 +83,12 @@ void write_recording(const std::filesystem::path& folder, const Flight& flight,
   writer.write_camera(nominal_camera(settings.run));
   writer.write_truth(true_targets(standing_on(settings.terrain, targets_in_enu), flight.truth.frame()));
   writer.write_extra("sim.json", injected_json(flight, settings));
+  if (settings.terrain.hills_m > 0.0) {
+    constexpr double kSpacing_m = 2.0;
+    writer.write_extra("terrain.asc", to_ascii_grid(elevation_model(settings.terrain, flight.truth.frame(),
+                                                                    kSpacing_m, Site{}.ground_height_msl_m)));
+    writer.write_extra("terrain.prj", wgs84_prj());
+  }
   for (const io::TlogRecord& record : flight.telemetry.records()) {
     writer.add_telemetry(record.received_at, record.frame, record.size);
   }

@@ -33,6 +33,24 @@ TEST(KnownPointsFile, HoldsPlacesWithWhatIsKnownOfThem) {
   EXPECT_EQ(points[1].class_id, std::nullopt);
   EXPECT_EQ(points[2].name, "2");
   EXPECT_DOUBLE_EQ(points[2].sigma_m, 0.05);
+  EXPECT_EQ(points[0].sigma_height_m, 0.0);
+  EXPECT_DOUBLE_EQ(points[1].height_m, 400.0);
+  EXPECT_DOUBLE_EQ(points[1].sigma_height_m, 0.05);
+}
+
+TEST(KnownPointsFile, HasHeightsAndTheirSigmasWhereTheyAreNotAllZero) {
+  const auto read = [](const char* height, const char* properties) {
+    return parse_known_points(std::string(R"({"features": [{"geometry": {"coordinates": [1, 2, )") + height +
+                                  "]}, \"properties\": " + properties + "}]}",
+                              "x")[0];
+  };
+  EXPECT_EQ(read("0", "{}").sigma_height_m, 0.0);
+  EXPECT_EQ(read("7", "{}").sigma_height_m, 0.05);
+  EXPECT_EQ(read("7", R"({"sigma_height_m": 0.3})").sigma_height_m, 0.3);
+  EXPECT_EQ(read("7", R"({"sigma_height_m": 0})").sigma_height_m, 0.0);
+  EXPECT_NE(refusal([&] { read("null", "{}"); }).find("height must be a number"), std::string::npos);
+  EXPECT_NE(refusal([&] { read("7", R"({"sigma_height_m": -1})"); }).find("sigma_height_m"),
+            std::string::npos);
 }
 
 TEST(KnownPointsFile, IsRefusedWithFeatureAndReason) {

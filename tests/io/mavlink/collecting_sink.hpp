@@ -18,6 +18,7 @@ class CollectingSink : public TelemetrySink {
  public:
   void on_attitude(const AttitudeSample& sample) override { attitudes.push_back(sample); }
   void on_position(const PositionSample& sample) override { positions.push_back(sample); }
+  void on_range(const RangeSample& sample) override { ranges.push_back(sample); }
   void on_reboot() override {
     attitudes_before_reboot.push_back(attitudes.size());
     reboots_at.push_back(frames.back().at);
@@ -28,6 +29,7 @@ class CollectingSink : public TelemetrySink {
 
   std::vector<AttitudeSample> attitudes;
   std::vector<PositionSample> positions;
+  std::vector<RangeSample> ranges;
   std::vector<std::size_t> attitudes_before_reboot;
   std::vector<ReceivedFrame> frames;
   std::vector<HostTime> reboots_at;

@@ -49,6 +49,9 @@ class Comparison {
     EXPECT_DOUBLE_EQ(found.height_above_home_m * 1e3, std::stod(row_[5]));
   }
 
+  /// The recorded vehicles have none.
+  void operator()(const RangeMessage&) const { EXPECT_EQ(row_[0], "DISTANCE_SENSOR"); }
+
   void operator()(const GnssStatus& found) const {
     ASSERT_EQ(row_[0], "GPS_RAW_INT");
     EXPECT_EQ(found.fix_type, std::stoi(row_[1]));

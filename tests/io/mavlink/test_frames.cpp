@@ -74,6 +74,24 @@ Bytes FrameFactory::gnss(std::uint8_t fix_type, double h_acc_m) {
   return pack(mavlink_msg_gps_raw_int_encode_status, fields);
 }
 
+Bytes FrameFactory::distance_sensor(VehicleTime time, double distance_m, std::uint8_t orientation,
+                                    std::uint8_t signal_quality) {
+  mavlink_distance_sensor_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  fields.min_distance = 20;
+  fields.max_distance = 4000;
+  fields.current_distance = static_cast<std::uint16_t>(std::lround(distance_m * 1e2));
+  fields.orientation = orientation;
+  fields.signal_quality = signal_quality;
+  return pack(mavlink_msg_distance_sensor_encode_status, fields);
+}
+
+Bytes FrameFactory::rangefinder(double distance_m) {
+  mavlink_rangefinder_t fields{};
+  fields.distance = static_cast<float>(distance_m);
+  return pack(mavlink_msg_rangefinder_encode_status, fields);
+}
+
 Bytes FrameFactory::ekf_status(std::uint16_t flags) {
   mavlink_ekf_status_report_t fields{};
   fields.flags = flags;

@@ -109,6 +109,42 @@ TEST_F(VehicleLinkTest, TakesQuaternionsOnlyWhereThereAreNoAngles) {
   EXPECT_EQ(sink_.attitudes.size(), 2U);
 }
 
+TEST_F(VehicleLinkTest, TakesDistancesOfSensorsThatLookDownAndMeasure) {
+  meet_vehicle();
+  hear(vehicle_.distance_sensor(at(2s), 12.34), 2s);
+  ASSERT_EQ(sink_.ranges.size(), 1U);
+  EXPECT_EQ(sink_.ranges[0].time, at(2s));
+  EXPECT_DOUBLE_EQ(sink_.ranges[0].distance_m, 12.34);
+  constexpr std::uint8_t kForward = 0, kDown = 25, kInvalid = 1, kGood = 90;
+  hear(vehicle_.distance_sensor(at(2s), 12.0, kForward), 2s);
+  hear(vehicle_.distance_sensor(at(2s), 12.0, kDown, kInvalid), 2s);
+  hear(vehicle_.distance_sensor(at(2s), 0.2), 2s);
+  hear(vehicle_.distance_sensor(at(2s), 40.0), 2s);
+  hear(vehicle_.distance_sensor(at(2s), 655.35), 2s);
+  EXPECT_EQ(sink_.ranges.size(), 1U);
+  hear(vehicle_.distance_sensor(at(2100ms), 12.0, kDown, kGood), 2100ms);
+  EXPECT_EQ(sink_.ranges.size(), 2U);
+  EXPECT_EQ(counts().ranges, 2U);
+}
+
+TEST_F(VehicleLinkTest, TakesDistancesWithoutATimeOnlyWhereNoOthersCome) {
+  meet_vehicle();
+  hear(vehicle_.attitude(at(1s)), 1s);
+  hear(vehicle_.rangefinder(7.5), 1100ms);
+  ASSERT_EQ(sink_.ranges.size(), 1U);
+  EXPECT_NEAR(seconds(sink_.ranges[0].time - at(1100ms)), 0.0, 0.05);
+  hear(vehicle_.distance_sensor(at(1200ms), 7.5), 1200ms);
+  hear(vehicle_.rangefinder(7.5), 1300ms);
+  EXPECT_EQ(sink_.ranges.size(), 2U);
+  hear(vehicle_.rangefinder(7.5), 3300ms);
+  EXPECT_EQ(sink_.ranges.size(), 3U);
+  hear(vehicle_.rangefinder(0.0), 3400ms);
+  hear(vehicle_.rangefinder(-1.0), 3400ms);
+  EXPECT_EQ(sink_.ranges.size(), 3U);
+  hear(vehicle_.rangefinder(std::numeric_limits<double>::quiet_NaN()), 3400ms);
+  EXPECT_EQ(counts().refused_values, 1U);
+}
+
 TEST_F(VehicleLinkTest, RefusesValuesThatCannotBe) {
   meet_vehicle();
   const double nan = std::numeric_limits<double>::quiet_NaN();

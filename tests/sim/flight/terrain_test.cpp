@@ -40,6 +40,28 @@ TEST(Terrain, HasTargetsStandOnIt) {
     EXPECT_EQ(target.z(), terrain.height_above_home_m(target.head<2>()));
 }
 
+/// At the nodes to the millimetre, between them to what a wave bends.
+TEST(Terrain, IsItsElevationModelAboveTheSea) {
+  const Terrain terrain{1.5, 4.0};
+  const LocalFrame frame({-22.906, -43.133}, 10.0);
+  const HeightGrid model = elevation_model(terrain, frame, 2.0, 10.0);
+  EXPECT_NEAR(model.spacing_m(), 2.0, 0.02);
+  for (double east = -150.0; east < 150.0; east += 17.3) {
+    for (double north = -150.0; north < 150.0; north += 13.1) {
+      const auto here = model.at(frame.to_geodetic({east, north}));
+      ASSERT_TRUE(here);
+      EXPECT_NEAR(here->height_m, 10.0 + terrain.height_above_home_m({east, north}), 0.06);
+    }
+  }
+}
+
+TEST(Terrain, IsWrittenFromNorthToSouth) {
+  const HeightGrid model({46.0, 7.0, 0.25, 0.5, 2, 3}, {1, 2, 3, 4, 5, 6});
+  EXPECT_EQ(to_ascii_grid(model),
+            "ncols 3\nnrows 2\nxllcenter 7\nyllcenter 46\ndx 0.5\ndy 0.25\n"
+            "4.000 5.000 6.000\n1.000 2.000 3.000\n");
+}
+
 TEST(Terrain, NamesItsFaults) {
   EXPECT_TRUE(Terrain{}.problems().empty());
   EXPECT_EQ((Terrain{-1.0, 1000.0}.problems().size()), 2U);

@@ -18,6 +18,7 @@ struct TelemetryCounts {
   std::uint64_t foreign_frames = 0;    ///< of other senders, and all frames before a vehicle was heard
   std::uint64_t attitudes = 0;         ///< delivered
   std::uint64_t positions = 0;         ///< delivered
+  std::uint64_t ranges = 0;            ///< of a rangefinder that looks down: delivered
   std::uint64_t second_attitudes = 0;  ///< ATTITUDE_QUATERNION in addition to ATTITUDE: ignored
   std::uint64_t no_fix_positions = 0;  ///< of a vehicle that did not know its position: ignored
   std::uint64_t refused_values = 0;    ///< not finite, or out of range

@@ -12,6 +12,7 @@ struct MavlinkConfig {
   int component_id = 191;  ///< our own, in the vehicle's system; 191 is that of an onboard computer
   double attitude_rate_hz = 10.0;
   double position_rate_hz = 10.0;
+  double rangefinder_rate_hz = 0.0;  ///< 0: what comes is used, but not requested
   double link_timeout_s = 3.0;
   bool camera = false;            ///< be a camera of the vehicle that tells where objects are
   int camera_component_id = 105;  ///< 100-105 are cameras; the vehicle's own is mostly 100

@@ -27,6 +27,12 @@ struct AttitudeMessage {
   bool from_quaternion = false;
 };
 
+/// DISTANCE_SENSOR that looks down, or RANGEFINDER, which does not say when.
+struct RangeMessage {
+  std::optional<VehicleTime> time;
+  double distance_m = 0.0;
+};
+
 /// GPS_RAW_INT: the first receiver only. Its own position is not used: the autopilot's estimate is better.
 struct GnssStatus {
   std::uint8_t fix_type = 0;                 ///< GPS_FIX_TYPE: 3 and more have a position
@@ -72,7 +78,7 @@ struct NotDecoded {};
 struct RefusedValues {};
 
 using Message = std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessage, PositionSample,
-                             GnssStatus, EstimatorStatus, Timesync, SystemTime, CommandAck>;
+                             RangeMessage, GnssStatus, EstimatorStatus, Timesync, SystemTime, CommandAck>;
 
 /// Payloads that MAVLink 2 truncated are padded with zeros. Positions (GLOBAL_POSITION_INT) are passed on as
 /// they are: PositionGate judges whether the vehicle knew where it was.

@@ -18,6 +18,9 @@ class TelemetrySink {
   virtual void on_attitude(const AttitudeSample& sample) = 0;
   virtual void on_position(const PositionSample& sample) = 0;
 
+  /// Of no use to most.
+  virtual void on_range(const RangeSample&) {}
+
   /// The vehicle's clock was reset: times before and after it cannot be compared.
   virtual void on_reboot() = 0;
 

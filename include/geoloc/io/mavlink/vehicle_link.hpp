@@ -65,6 +65,7 @@ class VehicleLink {
   void handle(const Heartbeat&, const Arrival&) {}
   void handle(const AttitudeMessage& message, const Arrival& arrival);
   void handle(const PositionSample& message, const Arrival& arrival);
+  void handle(const RangeMessage& message, const Arrival& arrival);
   void handle(const GnssStatus& message, const Arrival&) { gate_.observe(message); }
   void handle(const EstimatorStatus& message, const Arrival&) { gate_.observe(message); }
   void handle(const Timesync& message, const Arrival& arrival);
@@ -90,6 +91,7 @@ class VehicleLink {
   std::optional<HostTime> last_attitude_;
   std::optional<HostTime> last_euler_attitude_;
   std::optional<HostTime> last_position_;
+  std::optional<HostTime> last_stamped_range_;
   HostTime last_heard_{};
   bool is_v2_ = false;
   TelemetryCounts counts_;

@@ -25,6 +25,8 @@ struct RunCounters {
   std::uint64_t tracks_created = 0;
   std::uint64_t tracks_removed = 0;
   std::uint64_t tracks_merged = 0;
+  std::uint64_t ranges_used = 0;     ///< a rangefinder's readings
+  std::uint64_t ranges_refused = 0;  ///< those that disagree with the looks
 };
 
 /// What became of a known point.

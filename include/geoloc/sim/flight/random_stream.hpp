@@ -14,7 +14,8 @@ enum class RandomStream : std::uint64_t {
   kDetections,
   kClutter,
   kLink,
-  kScene
+  kScene,
+  kRangefinder
 };
 
 /// Seed of one stream of a run (splitmix64): neighbouring seeds give unrelated streams.

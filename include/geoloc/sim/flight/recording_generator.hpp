@@ -32,8 +32,9 @@ std::vector<io::RecordedFrame> generate_frames(const Flight& flight, const Recor
 std::string injected_json(const Flight& flight, const RecordingSettings& settings);
 
 /// Writes the folder of docs/formats.md: the flight's telemetry as it is, the frames, the nominal camera, the
-/// truth, and sim.json with what was injected. Throws std::invalid_argument naming every problem of the
-/// settings, and std::runtime_error where the folder cannot be written; it appears whole or not at all.
+/// truth, sim.json with what was injected, and where there are hills an elevation model of them. Throws
+/// std::invalid_argument naming every problem of the settings, and std::runtime_error where the folder cannot
+/// be written; it appears whole or not at all.
 void write_recording(const std::filesystem::path& folder, const Flight& flight,
                      const RecordingSettings& settings);
 

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/height_log.hpp"
+
+#include <algorithm>
+
+namespace geoloc {
+namespace {
+
+/// A rangefinder's scale is wrong by a share of the height, however long it measures: 0.2 m [1/m^2].
+constexpr double kMostInformation = 25.0;
+
+}  // namespace
+
+void HeightLog::add(const NodeSpan& span, double value_m, double variance_m2) {
+  const bool is_new = observations_.empty() || observations_.back().span.first != span.first;
+  if (is_new && observations_.size() == observations_.capacity()) return;
+  if (is_new) {
+    observations_.push_back({span, value_m, 1.0 / variance_m2});
+    readings_of_newest_ = 1;
+    return;
+  }
+  HeightObservation& mean = observations_.back();
+  const double share = 1.0 / ++readings_of_newest_;
+  mean.span.weight_of_second += share * (span.weight_of_second - mean.span.weight_of_second);
+  mean.value_m += share * (value_m - mean.value_m);
+  mean.information += share * (1.0 / variance_m2 - mean.information);
+}
+
+void HeightLog::freeze_oldest(const DriftTimeline& drift) {
+  while (!observations_.empty() && observations_.front().span.first <= drift.begin()) {
+    const HeightObservation& oldest = observations_.front();
+    constant_.information += oldest.information;
+    constant_.vector += oldest.information * (oldest.value_m - drift.at(oldest.span)[kNodeUp]);
+    observations_.erase(observations_.begin());
+  }
+  const double excess = constant_.information / kMostInformation;
+  if (!(excess > 1.0)) return;
+  constant_.information /= excess;
+  constant_.vector /= excess;
+}
+
+}  // namespace geoloc

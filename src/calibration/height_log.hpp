@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "calibration/drift.hpp"
+
+namespace geoloc {
+
+/// The camera was seen to be `value_m` higher above the level ground than reported: calibration's height plus
+/// the drift's up component between two nodes.
+struct HeightObservation {
+  NodeSpan span;
+  double value_m;
+  double information;  ///< inverse variance [1/m^2]
+};
+
+/// What is known of the camera's height besides looks. Readings between the same two nodes are taken over the
+/// same ground, whose roughness they share: they count as one observation, their mean, with the variance of
+/// one. Never allocates after construction.
+class HeightLog {
+ public:
+  /// What is left of observations whose nodes are frozen: of the constant height.
+  struct Constant {
+    double information = 0.0;
+    double vector = 0.0;
+  };
+
+  /// Nothing is known, and nothing will be.
+  HeightLog() = default;
+
+  /// Room for so many nodes.
+  explicit HeightLog(int max_nodes) { observations_.reserve(static_cast<std::size_t>(max_nodes) + 2); }
+
+  /// `span`: that of the newest nodes.
+  void add(const NodeSpan& span, double value_m, double variance_m2);
+
+  /// The drift's oldest node is about to be frozen at its estimate.
+  void freeze_oldest(const DriftTimeline& drift);
+
+  const std::vector<HeightObservation>& observations() const { return observations_; }
+  const Constant& constant() const { return constant_; }
+
+ private:
+  std::vector<HeightObservation> observations_;  // in order of their nodes
+  int readings_of_newest_ = 0;
+  Constant constant_;
+};
+
+}  // namespace geoloc
