@@ -17,7 +17,7 @@ namespace {
 using Index = CalibrationIndex;
 using testing::ground_at;
 
-constexpr double kGround_m = 0.6;
+constexpr double kGroundHeight_m = 0.6;
 
 class RestingObjectSums : public ::testing::Test {
  protected:
@@ -37,7 +37,7 @@ class RestingObjectSums : public ::testing::Test {
 
   RestingObject& append() {
     RestingObject& object = tracks_.append();
-    object.prior = ground_at(kGround_m);
+    object.prior = ground_at(kGroundHeight_m);
     clear_sums(object);
     return object;
   }
@@ -94,10 +94,10 @@ TEST_F(RestingObjectSums, OfOneLookAreThatLookOnTheGround) {
   const Look look = look_at(1.0);
   begin_sums(object, look, errors_);
   const Eigen::Vector2d slope = look.observation.slope;
-  const Eigen::Vector2d place = Eigen::Vector2d(3.0, -2.0) + kGround_m * slope +
+  const Eigen::Vector2d place = Eigen::Vector2d(3.0, -2.0) + kGroundHeight_m * slope +
                                 look.observation.calibration_jacobian * errors_.calibration.mean;
   EXPECT_LT((object.track.position_in_enu.mean - place).norm(), 1e-9);
-  EXPECT_LT((object.position_in_enu - Point(place.x(), place.y(), kGround_m)).norm(), 1e-9);
+  EXPECT_LT((object.position_in_enu - Point(place.x(), place.y(), kGroundHeight_m)).norm(), 1e-9);
   const double ground = testing::kSigmaGround_m * testing::kSigmaGround_m;
   Point ray;
   ray << slope, 1.0;
@@ -139,7 +139,7 @@ TEST_F(RestingObjectSums, CountTheDetectorsInformationOfEachLookAndTheGroundsOnc
     looks.push_back(look_at(1.1 + 0.1 * i));
     add_to_sums(object, looks.back(), errors_);
   }
-  const PointMatrix ground = ground_at(kGround_m).matrix;
+  const PointMatrix ground = ground_at(kGroundHeight_m).matrix;
   const PointMatrix pixels = pixel_information(looks, PointMatrix::Zero());
   EXPECT_LT((object.pixel_covariance - (pixels + ground).inverse()).norm(), 1e-9);
   EXPECT_LT((object.own_covariance - (0.5 * pixels + ground).inverse()).norm(), 1e-9);
@@ -165,7 +165,8 @@ TEST_F(RestingObjectSums, TakeInAPriorAtAnyTime) {
   add_prior(late, survey);
   expect_same(early, late);
   EXPECT_LT(
-      (late.pixel_information - pixel_information(looks, ground_at(kGround_m).matrix + survey.matrix)).norm(),
+      (late.pixel_information - pixel_information(looks, ground_at(kGroundHeight_m).matrix + survey.matrix))
+          .norm(),
       1e-9);
 }
 
