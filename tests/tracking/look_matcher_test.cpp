@@ -401,7 +401,10 @@ class ShakenFrames : public MatchedLooks {
     return matcher_.explain(looks_, noise_, tracks_);
   }
 
-  static Eigen::Vector2d place_of(int k) { return {10.0 * (k % 3), 10.0 * (k / 3)}; }
+  static Eigen::Vector2d place_of(int k) {
+    const int column = k % 3, row = k / 3;
+    return {10.0 * column, 10.0 * row};
+  }
 
   static constexpr double kPixelVariance_m2 = 4e-4;
 };
