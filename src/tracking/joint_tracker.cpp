@@ -24,9 +24,6 @@ constexpr double kLeastAccuracy_m = 0.02, kMostAccuracy_m = 100.0;
 /// A known point that is nearer to the image's edge is not covered; share of the image's height.
 constexpr double kCoverMargin = 0.1;
 
-/// A confirmed object that exists less probably is not reported any more, until it is confirmed anew.
-constexpr double kRetracted = 0.5;
-
 JointTrackerConfig checked(const JointTrackerConfig& config) {
   throw_if_any(config.problems());
   return config;
@@ -227,9 +224,9 @@ void JointTracker::remove_improbable() {
   for (std::size_t k = tracks_.size(); k-- > 0;) {
     Track& track = tracks_[k].track;
     track.existence = tracks_[k].existence.probability();
-    if (*track.existence < kRetracted) track.status = TrackStatus::kTentative;
+    retract_if_improbable(tracks_[k]);
     if (*track.existence >= config_.delete_probability) continue;
-    if (!tracks_[k].is_confirmed()) clutter_rate_.count_false(track.hits);
+    if (!tracks_[k].was_confirmed) clutter_rate_.count_false(track.hits);
     known_points_.forget(track.id);
     tracks_.remove(k);
     ++book_.counters.removed;

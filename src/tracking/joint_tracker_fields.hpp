@@ -22,11 +22,12 @@ void visit_fields(Visitor& v, MovingConfig& moving) {
 
 template <class Visitor>
 void visit_noise_fields(Visitor& v, JointTrackerConfig& joint) {
-  v.field("sigma_px", joint.sigma_px, Range::above(0, 1000), "px", "1-sigma of a box's centre per axis");
+  v.field("sigma_px", joint.sigma_px, Range::above(0, 1000), "px",
+          "1-sigma of a box's centre per axis where the detector states none, before any was learnt");
   v.field("sigma_time_s", joint.sigma_time_s, Range::closed(0, 1), "s",
           "1-sigma of a frame's stamp from frame to frame");
   v.field("sigma_attitude_deg", joint.sigma_attitude_deg, Range::above(0, 30), "deg",
-          "1-sigma of roll, pitch and yaw from frame to frame");
+          "1-sigma of roll, pitch and yaw from frame to frame, before any was learnt");
   v.field("attitude_time_constant_s", joint.attitude_time_constant_s, Range::closed(0, 100), "s",
           "Frames within it share that noise, as far as the drift's nodes do not follow it");
   v.field("horizontal_accuracy_m", joint.horizontal_accuracy_m, Range::above(0, 1000), "m",
@@ -36,7 +37,7 @@ void visit_noise_fields(Visitor& v, JointTrackerConfig& joint) {
   v.field("least_offset_sigma_m", joint.least_offset_sigma_m, Range::closed(0, 1000), "m",
           "Least 1-sigma per axis of the constant position error, whatever the drift shows");
   v.field("fast_share", joint.fast_share, Range::closed(0, 1), "",
-          "Share of the position's accuracy that changes from second to second");
+          "Share of the position's accuracy that changes from second to second, before any was learnt");
   v.field("fast_time_constant_s", joint.fast_time_constant_s, Range::closed(0, 100), "s",
           "Frames within it share this part of their position noise");
   v.field(
@@ -71,9 +72,12 @@ void visit_life_cycle_fields(Visitor& v, JointTrackerConfig& joint) {
   constexpr Range kProbability = Range::open(0, 1);
   v.field("detection_probability", joint.detection_probability, kProbability, "",
           "Probability that an object in view is detected, before any was counted");
-  v.field("clutter_per_frame", joint.clutter_per_frame, Range::above(0, 1000), "", "False boxes per frame");
-  v.field("birth_probability", joint.birth_probability, kProbability, "",
-          "Probability that a detection which fits nothing is an object");
+  v.field("clutter_per_frame", joint.clutter_per_frame, Range::above(0, 1000), "",
+          "False boxes per frame, before any was counted");
+  v.field(
+      "birth_probability", joint.birth_probability, kProbability, "",
+      "Probability that a detection which fits nothing is an object; less where more false boxes than that "
+      "are counted");
   v.field("confirm_probability", joint.confirm_probability, kProbability, "",
           "Probability of existence that confirms an object");
   v.field("delete_probability", joint.delete_probability, kProbability, "",

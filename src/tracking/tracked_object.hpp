@@ -27,8 +27,9 @@ struct TrackedObject {
   Existence existence{0.5};
   Neighbours neighbours;
   VehicleTime last_look{};
-  double size_m = 0.0;   ///< apparent, mean
-  bool is_seen = false;  ///< in the present frame
+  double size_m = 0.0;         ///< apparent, mean
+  bool is_seen = false;        ///< in the present frame
+  bool was_confirmed = false;  ///< at some time
 
   bool is_confirmed() const { return track.status == TrackStatus::kConfirmed; }
 };
@@ -51,7 +52,16 @@ inline void record_look(TrackedObject& object, const Look& look, VehicleTime tim
 }
 
 inline void confirm_if_probable(TrackedObject& object, double confirm_probability) {
-  if (object.existence.probability() >= confirm_probability) object.track.status = TrackStatus::kConfirmed;
+  if (object.existence.probability() < confirm_probability) return;
+  object.track.status = TrackStatus::kConfirmed;
+  object.was_confirmed = true;
+}
+
+/// A confirmed object that exists less probably is not reported any more, until it is confirmed anew.
+inline constexpr double kRetracted = 0.5;
+
+inline void retract_if_improbable(TrackedObject& object) {
+  if (object.existence.probability() < kRetracted) object.track.status = TrackStatus::kTentative;
 }
 
 /// Two turned out to be one: what `gone` knew besides its position goes to `kept`.
@@ -59,6 +69,7 @@ inline void merge_into(TrackedObject& kept, const TrackedObject& gone) {
   kept.last_look = std::max(kept.last_look, gone.last_look);
   kept.existence.merge(gone.existence);
   kept.neighbours.merge(gone.neighbours);
+  kept.was_confirmed = kept.was_confirmed || gone.was_confirmed;
   merge_records(kept.track, gone.track);
 }
 

@@ -74,12 +74,17 @@ TEST(MovingObjects, AreEstimatedByTheTextbooksKalmanFilter) {
   std::mt19937 random(3);
   std::normal_distribution<double> noise_m(0.0, 1.5 * kMetresPerPixel);
   const double variance = std::pow(1.5 * kMetresPerPixel, 2);
-  const double clutter = 1000.0 / (1280.0 * 720.0 * kMetresPerPixel * kMetresPerPixel);
+  // Assumed for 50 frames' worth, and none is counted.
+  const auto clutter_after = [](double frames) {
+    return 1000.0 * 50.0 / (50.0 + frames) / (1280.0 * 720.0 * kMetresPerPixel * kMetresPerPixel);
+  };
+  double frames = 0.0;
   std::optional<std::array<AxisFilter, 2>> expected;
   double before_s = 0.0, expected_log_odds = std::log(0.3 / 0.7);
   for (const double time_s : {0.5, 0.6, 0.75, 0.8, 1.1, 1.2, 2.0, 2.1, 2.15}) {
     const Eigen::Vector2d measured(-4.0 + 3.0 * time_s + noise_m(random), 2.0 - time_s + noise_m(random));
     flight.process(time_s, {at(measured)});
+    frames += 1.0;
     if (!expected) {
       expected.emplace(std::array<AxisFilter, 2>{AxisFilter(measured.x(), variance, moving.sigma_speed_mps),
                                                  AxisFilter(measured.y(), variance, moving.sigma_speed_mps)});
@@ -92,7 +97,7 @@ TEST(MovingObjects, AreEstimatedByTheTextbooksKalmanFilter) {
       density *= (*expected)[static_cast<std::size_t>(axis)].update(measured[axis], variance);
     }
     before_s = time_s;
-    expected_log_odds += std::log(0.9 * density / clutter);
+    expected_log_odds += std::log(0.9 * density / clutter_after(frames));
     ASSERT_EQ(flight.tracks().size(), 1U);
     const Track& track = flight.tracks()[0];
     ASSERT_TRUE(track.velocity_in_enu);

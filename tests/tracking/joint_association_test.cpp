@@ -6,10 +6,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <optional>
 #include <random>
+
+#include "geoloc/geometry/angles.hpp"
 
 namespace geoloc {
 namespace {
@@ -284,7 +287,7 @@ TEST_F(JointFrameOfTwoLooks, PairsBeyondTheGateAreDropped) {
   EXPECT_EQ(association.looks_at(0), 1);
 }
 
-constexpr double kLookAlone = 5.53;  ///< -2 ln(2 pi / 100 m^2)
+const double kLookAlone = -2.0 * std::log(2.0 * kPi / 100.0);  ///< where one object stands on 100 m^2
 /// By as much more may leaving a look alone cost, so that it may as well be of something new.
 constexpr double kDoubt = 2.0;
 
@@ -324,7 +327,7 @@ class LoneLook {
 TEST_F(JointFrameOfTwoLooks, ALoneLookIsInDoubtWhereSomethingNewIsAboutAsLikely) {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> scale(0.1, 3.0), angle(0.0, 6.28), penalty(0.0, 2.0);
-  constexpr double kBound = kLookAlone - kDoubt;
+  const double kBound = kLookAlone - kDoubt;
   int certain_to_the_gate = 0, never_certain = 0, at_the_bound = 0;
   for (int trial = 0; trial < 500; ++trial) {
     Pairing pairing = drawn(0, 3, {0.0, 0.0}, random);
@@ -354,6 +357,68 @@ TEST_F(JointFrameOfTwoLooks, ALoneLookIsInDoubtWhereSomethingNewIsAboutAsLikely)
   EXPECT_GT(certain_to_the_gate, 20);
   EXPECT_GT(never_certain, 20);
   EXPECT_GT(at_the_bound, 200);
+}
+
+/// A tenth as dense, or ten times: by the density of what may be new where the look falls.
+TEST_F(JointFrameOfTwoLooks, ALoneLookIsInDoubtTheFartherTheRarerSomethingNewIs) {
+  const Pairing at_track = pairing(0, 0, {0.0, 0.0}, 0.5);
+  const Eigen::Matrix2d covariance =
+      at_track.own_covariance + at_track.jacobian * at_track.jacobian.transpose();
+  for (const double density : {0.001, 0.005, 0.02, 0.05}) {
+    const double alone = -2.0 * std::log(2.0 * kPi * density);
+    const double bound = alone - kDoubt - std::log(covariance.determinant());
+    ASSERT_GT(bound, 0.5);
+    for (const double squared : {bound - 0.01, bound + 0.01}) {
+      if (squared > kGate) continue;
+      Pairing pair = at_track;
+      pair.residual.x() = std::sqrt(squared * covariance(0, 0));
+      JointAssociation association(5, 5);
+      association.begin(2, kGate, kAmbiguity);
+      association.expect_new(0, density);
+      association.add(pair);
+      EXPECT_EQ(association.solve()[0].is_certain(), squared < bound) << density;
+      // What is expected beside one look is not expected beside another, nor in the next frame.
+      association.begin(1, kGate, kAmbiguity);
+      association.add(pair);
+      const double usual = kLookAlone - kDoubt - std::log(covariance.determinant());
+      EXPECT_EQ(association.solve()[0].is_certain(), squared < usual) << density;
+    }
+  }
+}
+
+/// Where a look has a choice and where none has: the cost is that of the explanation that is reported, all
+/// residuals weighed together, and of looks left alone the density of what is new.
+TEST_F(JointFrameOfTwoLooks, CostWhatTheirJointDensityAndNewObjectsDo) {
+  std::mt19937 random(21);
+  std::normal_distribution<double> normal(0.0, 0.8);
+  int plain = 0, with_a_choice = 0, alone = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const std::array<double, 3> densities{0.001, 0.01, 0.03};
+    JointAssociation association(5, 5);
+    association.begin(3, kGate, 0.0);
+    for (std::size_t i = 0; i < 3; ++i) association.expect_new(i, densities[i]);
+    std::vector<Pairing> pairs{drawn(0, 1, {normal(random), normal(random)}, random),
+                               drawn(1, 2, {normal(random), normal(random)}, random)};
+    if (trial % 2 == 0) pairs.push_back(drawn(0, 2, {normal(random), normal(random)}, random));
+    pairs[1].penalty = 0.5;
+    for (const Pairing& pair : pairs) association.add(pair);
+    const auto& matches = association.solve();
+    std::vector<Pairing> chosen;
+    double expected = 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!matches[i].track) expected -= 2.0 * std::log(2.0 * kPi * densities[i]);
+      for (const Pairing& pair : association.pairings()) {
+        if (pair.look == i && matches[i].track == pair.track) chosen.push_back(pair);
+      }
+    }
+    expected += conditioned_on(chosen).cost;
+    EXPECT_NEAR(association.cost(), expected, 1e-9) << trial;
+    (association.pairings().size() == 3 ? with_a_choice : plain) += 1;
+    alone += chosen.size() < 2 ? 1 : 0;
+  }
+  EXPECT_GT(plain, 50);
+  EXPECT_GT(with_a_choice, 50);
+  EXPECT_GT(alone, 20);
 }
 
 struct Explained {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "calibration/linearize.hpp"
-#include "calibration/noise.hpp"
+#include "calibration/noise_estimate.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/projection/projector.hpp"
 
@@ -18,6 +18,8 @@ namespace {
 constexpr double kUp_m = 20.0, kFocal_px = 1000.0;
 constexpr double kPixel_m = kUp_m / kFocal_px;
 constexpr int kCarClass = 7;
+constexpr double kClutterPerFrame = 0.7;
+constexpr double kSigmaAttitude_deg = 0.3;  // as far as is known
 
 /// A level vehicle over the origin that flies north-east, its camera looking straight down, the image's top
 /// to the north: right is east, down is south, and everything about a look can be written down.
@@ -26,7 +28,7 @@ class LooksFromAbove : public ::testing::Test {
   LooksFromAbove() {
     config_.moving.classes = {kCarClass};
     config_.sigma_px = 2.0;
-    config_.sigma_attitude_deg = 0.3;
+    config_.sigma_attitude_deg = 7.0;  // before any was learnt: no look minds
     config_.sigma_time_s = 0.05;
     config_.fast_share = 0.25;
     const Eigen::Matrix3d looking_down = Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal();
@@ -55,13 +57,13 @@ class LooksFromAbove : public ::testing::Test {
 
   FrameLooks make(const std::vector<LocatedDetection>& detections) {
     LookMaker maker(config_, 20);
-    const JointFrame frame{projector_, view_, span_, drift_, repetition_, 0.0, config_.clutter_per_frame};
+    const JointFrame frame{projector_, view_, span_, drift_, repetition_, 0.0, kClutterPerFrame};
     return maker.make(detections, frame, errors_);
   }
 
   /// Variances per axis of the noise [m^2].
   double pixel() const { return std::pow(config_.sigma_px * kPixel_m, 2); }
-  double attitude() const { return std::pow(config_.sigma_attitude_deg * kPi / 180.0 * kUp_m, 2); }
+  double attitude() const { return std::pow(kSigmaAttitude_deg * kPi / 180.0 * kUp_m, 2); }
   double position() const { return std::pow(config_.fast_share * accuracy_.radial_m, 2) / 2.0; }
 
   JointTrackerConfig config_;
@@ -70,7 +72,8 @@ class LooksFromAbove : public ::testing::Test {
   PositionAccuracy accuracy_{0.8, 0.2, 0.02};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
   HeightPrior height_prior_{0.0, 2.0};
-  SharedErrorEstimate errors_{accuracy_, height_prior_, testing::kNoise, DriftConfig{}, solver_};
+  SharedErrorEstimate errors_{accuracy_, height_prior_, NoiseEstimate(kSigmaAttitude_deg* kRadPerDeg),
+                              DriftConfig{}, solver_};
   NodeSpan span_{};
   NodeVector drift_ = NodeVector::Zero();
   NoiseRepetition repetition_{5.0, 3.0};
@@ -87,6 +90,33 @@ TEST_F(LooksFromAbove, KnowTheirNoise) {
   const Eigen::Matrix2d time = 0.05 * 0.05 * velocity * velocity.transpose();
   const Eigen::Matrix2d noise = (pixel() + 3.0 * attitude() + 5.0 * position()) * one + time;
   EXPECT_LT((look.observation.information.inverse() - noise).norm(), 1e-9);
+}
+
+/// Noise that a flight's frames have shown: what looks have in common for the most part, and the rest.
+TEST_F(LooksFromAbove, HaveTheNoiseThatWasLearnt) {
+  for (int frame = 0; frame < 200; ++frame) {
+    const double sign = frame % 2 == 0 ? 1.0 : -1.0;
+    errors_.noise.begin_frame();
+    for (const double east : {-5.0, 1.0, 6.0}) {
+      Eigen::Matrix<double, 2, 3> turn;
+      turn << 0.0, kUp_m, 0.0, -kUp_m, 0.0, -east;
+      errors_.noise.add({{sign * 0.9, east > 0.0 ? 0.1 : -0.1},
+                         turn,
+                         0.01 * Eigen::Matrix2d::Identity(),
+                         Eigen::Matrix2d::Zero()});
+    }
+    errors_.noise.learn_from_frame(position());
+  }
+  const NoiseEstimate& learnt = errors_.noise;
+  for (const double factor : {learnt.pixel_factor(), learnt.position_factor()})
+    EXPECT_GT(std::abs(factor - 1.0), 0.1);
+  EXPECT_GT(std::abs(std::sqrt(learnt.attitude_variance_rad2()) * kDegPerRad - kSigmaAttitude_deg), 0.1);
+  const Look look = make({located(0.0, 0.0)}).at_rest[0];
+  const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
+  EXPECT_LT((look.pixel_noise - learnt.pixel_factor() * pixel() * one).norm(), 1e-12);
+  const double frame_variance =
+      learnt.attitude_variance_rad2() * kUp_m * kUp_m + learnt.position_factor() * position();
+  EXPECT_LT((look.frame_noise - frame_variance * one).norm(), 1e-12);
 }
 
 /// By similar triangles: whatever the look itself shows, and however much higher the camera is than reported.
@@ -222,8 +252,9 @@ TEST_F(LooksFromAbove, KnowTheirSizeAndHowRareClutterIs) {
   const Look look = make({located(3.0, -2.0, 0, 40.0)}).at_rest[0];
   EXPECT_NEAR(look.ground_per_pixel_m, kPixel_m, 1e-12);
   EXPECT_NEAR(look.size_m, 40.0 * kPixel_m, 1e-12);  // the smaller side
-  EXPECT_NEAR(look.clutter_density, config_.clutter_per_frame / (1280.0 * 720.0 * kPixel_m * kPixel_m),
-              1e-12);
+  const double image_m2 = 1280.0 * 720.0 * kPixel_m * kPixel_m;
+  EXPECT_NEAR(look.one_per_image, 1.0 / image_m2, 1e-12);
+  EXPECT_NEAR(look.clutter_density, kClutterPerFrame / image_m2, 1e-12);
 }
 
 TEST_F(LooksFromAbove, AreNoDuplicatesOfWhatMayMove) {

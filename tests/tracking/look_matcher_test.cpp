@@ -9,6 +9,7 @@
 #include <random>
 
 #include "calibration/noise.hpp"
+#include "geoloc/geometry/angles.hpp"
 #include "tracking/resting_objects.hpp"
 
 namespace geoloc {
@@ -18,8 +19,13 @@ using testing::append_seen;
 using testing::lone_look;
 
 constexpr double kVariance_m2 = 0.01;
-/// -2 ln of the density, but for the 2 pi, of looks that may as well be of something new.
-constexpr double kCostOfDoubt = 5.53 - 2.0;
+/// -2 ln of the density of one new object in the image, but for the 2 pi.
+const double kCostAlone = -2.0 * std::log(2.0 * kPi * testing::kOnePerImage);
+/// The same of looks that may as well be of something new.
+const double kCostOfDoubt = kCostAlone - 2.0;
+/// A frame that is shaken has so much more noise, and is so much less probable than one that is not; and an
+/// object that only the shaken frame shows was missed otherwise, which is improbable too.
+constexpr double kShake = 4.0, kCostOfShake = 6.0, kCostMissed = 4.6;
 
 /// Objects that many looks have shown, whose looks and tracks share no error but the frame's.
 class MatchedLooks : public ::testing::Test {
@@ -76,29 +82,43 @@ TEST_F(MatchedLooks, ShowTheTrackAtTheirPlace) {
   EXPECT_FALSE(tracks_[1].is_in_doubt);
 }
 
-/// Where a look is left alone: the noise of look and track, and of the frames in between.
-TEST_F(MatchedLooks, ReachAsFarAsTheirNoiseDoes) {
-  frame_sigma_m_ = 0.3;
+/// Where a look is left alone: the noise of look and track, and of the frame, of which the track has what its
+/// frames left in it. Beyond that gate, a frame that shows only this may have been shaken.
+TEST_F(MatchedLooks, ReachAsFarAsTheirNoiseDoesAndThatOfAShakenFrame) {
+  constexpr double kFrameVariance_m2 = 0.09;
   for (const int hits : {1, 4, 100}) {
-    for (const double unseen_s : {0.0, 1.0, 50.0}) {
-      TrackTable tracks(1);
-      RestingObject& object = append_seen(tracks, errors_, {0, 0}, hits, kVariance_m2);
-      object.last_look = now_ - from_seconds(unseen_s);
-      const FrameNoise noise{0.09 * Eigen::Matrix2d::Identity(), 8.0, 1.0};
-      const double share = std::min(1.0, 8.0 / hits);
-      const double fresh = 1.0 - share * std::exp(-unseen_s);
-      const double variance = kVariance_m2 + kVariance_m2 / hits + fresh * share * 0.09 + fresh * 0.09;
-      const double gate_m = std::sqrt(config_.gate * variance);
-      for (const double factor : {0.98, 1.02}) {
-        Look look = lone_look({0.0, factor * gate_m}, kVariance_m2);
-        look.jacobian.middleCols<2>(SharedError::kFrame) = 0.3 * Eigen::Matrix2d::Identity();
-        const Explanation& explanation = matcher_.explain({look}, noise, tracks);
-        EXPECT_EQ(explanation.match_of_look[0].track.has_value() || tracks[0].is_in_doubt, factor < 1.0)
-            << hits << " hits, " << unseen_s << " s";
-        tracks.clear_evidence();
-      }
+    TrackTable tracks(1);
+    append_seen(tracks, errors_, {0, 0}, hits, kVariance_m2);
+    const FrameNoise noise{kFrameVariance_m2 * Eigen::Matrix2d::Identity(), 8.0, 1.0};
+    const double own = kVariance_m2 + kVariance_m2 / hits + std::min(1.0, 8.0 / hits) * kFrameVariance_m2;
+    const double calm = own + kFrameVariance_m2, shaken = own + kShake * kShake * kFrameVariance_m2;
+    const double of_shaken = kCostAlone - kCostOfShake + kCostMissed - 2.0 * std::log(shaken);
+    const double reach_m =
+        std::sqrt(std::max(config_.gate * calm, std::min(config_.gate, of_shaken) * shaken));
+    EXPECT_GT(reach_m, 1.05 * std::sqrt(config_.gate * calm));
+    for (const double share : {0.1, 0.5, 0.98, 1.02, 1.5}) {
+      Look look = lone_look({0.0, share * reach_m}, kVariance_m2);
+      look.jacobian.middleCols<2>(SharedError::kFrame) =
+          std::sqrt(kFrameVariance_m2) * Eigen::Matrix2d::Identity();
+      const Explanation& explanation = matcher_.explain({look}, noise, tracks);
+      EXPECT_EQ(explanation.match_of_look[0].track.has_value() || tracks[0].is_in_doubt, share < 1.0)
+          << hits << " hits, " << share;
+      tracks.clear_evidence();
     }
   }
+}
+
+/// How long a track was not seen says nothing of the noise of this frame.
+TEST_F(MatchedLooks, ReachAsFarHoweverLongAgoTheTrackWasSeen) {
+  frame_sigma_m_ = 0.3;
+  RestingObject& object = append({0, 0});
+  std::vector<Eigen::Matrix2d> covariances;
+  for (const double unseen_s : {0.0, 1.0, 50.0}) {
+    object.last_look = now_ - from_seconds(unseen_s);
+    covariances.push_back(explain({{0.1, 0.0}}).match_of_look[0].innovation_covariance);
+  }
+  EXPECT_EQ(covariances[0], covariances[1]);
+  EXPECT_EQ(covariances[0], covariances[2]);
 }
 
 /// Calibration and drift that shift look and track alike cancel; what shifts the one alone does not.
@@ -232,7 +252,6 @@ TEST_F(MatchedLooks, AreComparedWithEveryTrackTheyMayShow) {
     Eigen::Matrix<double, 2, 3> H;
     H << 1.0, 0.0, -look.observation.slope.x(), 0.0, 1.0, -look.observation.slope.y();
     SharedError::Row shared = look.jacobian - H * tracks[0].sensitivity;
-    shared.middleCols<2>(SharedError::kFrame) *= std::sqrt(1.0 - noise_.share_in_track(3));  // seen just now
     const Eigen::Matrix2d covariance =
         look.pixel_noise + H * tracks[0].pixel_covariance * H.transpose() + shared * shared.transpose();
     const Eigen::Vector2d apart = look.position - H * tracks[0].position_in_enu;
@@ -351,6 +370,109 @@ TEST_F(Twins, OfADoubtfulLookAtOneTrackAreNone) {
   const double far_m = std::sqrt(0.9 * config_.gate * (kVariance_m2 + 0.09));
   EXPECT_FALSE(is_the_firsts({far_m, 0.0}));
   EXPECT_TRUE(tracks_[0].is_in_doubt);
+}
+
+// --- Shaken frames.
+
+/// Objects ten metres apart, which frames show to two centimetres but for what the frame's looks share.
+class ShakenFrames : public MatchedLooks {
+ protected:
+  static constexpr double kFrameSigma_m = 0.1;
+
+  ShakenFrames() { frame_sigma_m_ = kFrameSigma_m; }
+
+  /// A frame that shows the first `count` objects, all shifted by as much.
+  const Explanation& explain_shifted(int count, const Eigen::Vector2d& shift) {
+    while (static_cast<int>(tracks_.size()) < count) append(place_of(static_cast<int>(tracks_.size())));
+    std::vector<Eigen::Vector2d> places;
+    for (int k = 0; k < count; ++k) places.push_back(place_of(k) + shift);
+    return explain_precisely(places);
+  }
+
+  const Explanation& explain_precisely(const std::vector<Eigen::Vector2d>& places) {
+    looks_.clear();
+    for (const Eigen::Vector2d& place : places) {
+      looks_.push_back(lone_look(place, kPixelVariance_m2));
+      looks_.back().jacobian.middleCols<2>(SharedError::kFrame) =
+          frame_sigma_m_ * Eigen::Matrix2d::Identity();
+    }
+    tracks_.clear_evidence();
+    noise_.covariance = frame_sigma_m_ * frame_sigma_m_ * Eigen::Matrix2d::Identity();
+    return matcher_.explain(looks_, noise_, tracks_);
+  }
+
+  static Eigen::Vector2d place_of(int k) {
+    const int column = k % 3, row = k / 3;
+    return {10.0 * column, 10.0 * row};
+  }
+
+  static constexpr double kPixelVariance_m2 = 4e-4;
+};
+
+/// By four sigmas, in whatever direction: every look is its object's, which is none of them by the noise that
+/// is known.
+TEST_F(ShakenFrames, ThatShowSeveralObjectsShowEachWhereAllAreShiftedAlike) {
+  for (const int count : {3, 5, 8}) {
+    for (double direction = 0.0; direction < 6.2; direction += 0.7) {
+      const Eigen::Vector2d shift =
+          4.0 * kFrameSigma_m * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+      const Explanation& explanation = explain_shifted(count, shift);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        EXPECT_EQ(explanation.match_of_look[i].track, i) << direction;
+        EXPECT_TRUE(explanation.match_of_look[i].is_certain()) << direction;
+      }
+      EXPECT_LT((explanation.common_shift - shift).norm(), 1e-9);
+    }
+  }
+}
+
+/// What is too far for a shaken frame is not seen.
+TEST_F(ShakenFrames, DoNotShowWhatIsTwentySigmasAside) {
+  const Explanation& explanation = explain_shifted(5, {20.0 * kFrameSigma_m, 0.0});
+  for (const auto& match : explanation.match_of_look) EXPECT_FALSE(match.track);
+}
+
+/// One object is missed, and something new stands four sigmas beside it: the others say that the frame was
+/// calm.
+TEST_F(ShakenFrames, AreNotThoseThatShowOneNewObjectBesideTheKnownOnes) {
+  for (const int known : {2, 4, 7}) {
+    explain_shifted(known + 1, Eigen::Vector2d::Zero());
+    std::vector<Eigen::Vector2d> places;
+    for (int k = 0; k < known; ++k) places.push_back(place_of(k));
+    places.push_back(place_of(known) + Eigen::Vector2d(4.0 * kFrameSigma_m, 0.0));
+    const Explanation& explanation = explain_precisely(places);
+    for (int k = 0; k < known; ++k) {
+      const auto& match = explanation.match_of_look[static_cast<std::size_t>(k)];
+      EXPECT_TRUE(match.is_certain());
+      EXPECT_EQ(match.track, static_cast<std::size_t>(k));
+    }
+    EXPECT_FALSE(explanation.match_of_look.back().track) << known;
+  }
+}
+
+/// What shows a frame to be calm is that it shows the objects where they are: then all that is beside them is
+/// new, and matched by the calm frame's noise.
+TEST_F(ShakenFrames, AreNotSoughtWhereEveryLookIsAnObjects) {
+  const Explanation& explanation = explain_shifted(5, {0.1 * kFrameSigma_m, 0.0});
+  for (const auto& match : explanation.match_of_look) {
+    ASSERT_TRUE(match.is_certain());
+    const double variance = kPixelVariance_m2 + kVariance_m2 / 100.0 + 1.01 * kFrameSigma_m * kFrameSigma_m;
+    EXPECT_LT((match.innovation_covariance - variance * Eigen::Matrix2d::Identity()).norm(), 1e-9);
+  }
+}
+
+/// The pair that a look was explained by is that of the noise it was explained with.
+TEST_F(ShakenFrames, AreWhatTheNoiseLearnsFrom) {
+  const Eigen::Vector2d shift(0.0, 4.0 * kFrameSigma_m);
+  const Explanation& explanation = explain_shifted(5, shift);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const Pairing& pairing = matcher_.pairing_of(explanation.match_of_look[i]);
+    EXPECT_EQ(pairing.look, i);
+    EXPECT_EQ(pairing.track, i);
+    EXPECT_LT((pairing.residual - shift).norm(), 1e-9);
+    const Eigen::Matrix2d frame = pairing.jacobian.middleCols<2>(SharedError::kFrame);
+    EXPECT_LT((frame - kShake * kFrameSigma_m * Eigen::Matrix2d::Identity()).norm(), 1e-12);
+  }
 }
 
 TEST_F(MatchedLooks, OfAnEmptyFrameAreNone) {

@@ -10,6 +10,8 @@ namespace geoloc::testing {
 /// What is expected of the camera's height, and of the objects'.
 constexpr HeightPrior kHeightPrior{0.0, 2.0};
 constexpr double kSigmaGround_m = 3.0;
+/// Density of one object in an image of 100 m^2 of ground [1/m^2].
+constexpr double kOnePerImage = 0.01;
 
 /// An object stands so high, more or less.
 inline PointInformation ground_at(double up_m, double sigma_m = kSigmaGround_m) {
@@ -33,6 +35,7 @@ inline Look lone_look(const Eigen::Vector2d& place, double variance_m2,
   look.observation.node_jacobian.setZero();
   look.observation.span = {0, 0.25};
   look.observation.information = Eigen::Matrix2d::Identity() / variance_m2;
+  look.one_per_image = kOnePerImage;
   look.clutter_density = 1e-4;
   look.size_m = 0.5;
   return look;

@@ -32,5 +32,43 @@ TEST(TrackedObject, OfTwoThatAreOneKnowsWhatBothKnew) {
   }
 }
 
+TEST(TrackedObject, IsConfirmedUntilItIsLessProbableThanNotAndThenFromItsConfirmationOn) {
+  TrackedObject object;
+  object.existence = Existence(0.5);
+  const auto follow = [&] {
+    confirm_if_probable(object, 0.999);
+    retract_if_improbable(object);
+  };
+  follow();
+  EXPECT_FALSE(object.is_confirmed() || object.was_confirmed);
+  for (int round = 0; round < 2; ++round) {
+    while (object.existence.probability() < 0.999) {
+      EXPECT_FALSE(object.is_confirmed());
+      object.existence.hit(0.9, 2.0, 1.0);
+      follow();
+    }
+    EXPECT_TRUE(object.is_confirmed());
+    while (object.existence.probability() >= 0.5) {
+      EXPECT_TRUE(object.is_confirmed());
+      object.existence.miss(0.4);
+      follow();
+    }
+    EXPECT_FALSE(object.is_confirmed());
+    EXPECT_TRUE(object.was_confirmed);
+  }
+}
+
+TEST(TrackedObject, OfTwoOneOfWhichWasConfirmedWasConfirmed) {
+  TrackedObject confirmed, other;
+  confirmed.existence = Existence(0.9999);
+  confirm_if_probable(confirmed, 0.999);
+  ASSERT_TRUE(confirmed.was_confirmed);
+  TrackedObject kept = other;
+  merge_into(kept, confirmed);
+  EXPECT_TRUE(kept.was_confirmed);
+  merge_into(confirmed, other);
+  EXPECT_TRUE(confirmed.was_confirmed);
+}
+
 }  // namespace
 }  // namespace geoloc

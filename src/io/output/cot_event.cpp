@@ -25,10 +25,11 @@ std::string type_of(const ObjectReport& object, const CotConfig& config) {
   return found != config.types.end() ? found->second : config.type;
 }
 
-std::string remarks(const ObjectReport& object) {
-  std::string text = fmt::format(
-      "confidence {:.3f}, {} looks, 1 sigma {:.2f} m x {:.2f} m towards {:.0f} deg", object.confidence,
-      object.hits, object.ellipse.sigma_major_m, object.ellipse.sigma_minor_m, object.ellipse.azimuth_deg);
+std::string remarks(const ObjectReport& object, bool is_gone) {
+  std::string text = is_gone ? "retracted, " : "";
+  text += fmt::format("confidence {:.3f}, {} looks, 1 sigma {:.2f} m x {:.2f} m towards {:.0f} deg",
+                      object.confidence, object.hits, object.ellipse.sigma_major_m,
+                      object.ellipse.sigma_minor_m, object.ellipse.azimuth_deg);
   if (object.height.msl_m && std::isfinite(*object.height.msl_m))
     text += fmt::format(", {:.1f} m above mean sea level", *object.height.msl_m);
   return text;
@@ -61,7 +62,7 @@ std::string to_cot(const ObjectReport& object, const CotContext& context, const 
       iso8601(std::min(object.last_seen, context.sent_at)), iso8601(stale_at), object.position.latitude_deg,
       object.position.longitude_deg, known_or(context.height_ellipsoid_m.value_or(kUnknown), kUnknown),
       known_or(ce, kUnknown), known_or(le, kUnknown), name, object.id,
-      context.height_ellipsoid_m ? "Calculated" : "???", track_of(object), remarks(object));
+      context.height_ellipsoid_m ? "Calculated" : "???", track_of(object), remarks(object, context.is_gone));
 }
 
 }  // namespace geoloc::io

@@ -49,19 +49,25 @@ void CotSink::on_run(const RunRecord& run) {
 }
 
 void CotSink::on_end() {
-  if (objects_.empty() || !connection_.flush(kPatienceAtTheEnd)) return;
-  told_.clear();
+  if ((objects_.empty() && told_.empty()) || !connection_.flush(kPatienceAtTheEnd)) return;
+  tell_all_again();
   send_due();
   connection_.flush(kPatienceAtTheEnd);
+}
+
+/// What was told on a connection before may have been lost with it; that an object is gone has yet to be.
+void CotSink::tell_all_again() {
+  for (auto& [id, told] : told_) told.at.reset();
 }
 
 void CotSink::send_due() {
   const auto now = CotConnection::Clock::now();
   connection_.poll(now);
-  if (std::exchange(connections_, connection_.counts().connections) != connections_) told_.clear();
+  if (std::exchange(connections_, connection_.counts().connections) != connections_) tell_all_again();
   for (const ObjectReport& object : objects_) {
     const auto told = told_.find(object.id);
-    const bool is_due = told == told_.end() || now - told->second.at >= from_seconds(config_.period_s);
+    const bool is_due =
+        told == told_.end() || !told->second.at || now - *told->second.at >= from_seconds(config_.period_s);
     if (!is_due || !has_place(object)) continue;
     if (!connection_.is_ready()) return;
     send(object, false);
@@ -70,6 +76,7 @@ void CotSink::send_due() {
   for (auto told = told_.begin(); told != told_.end();) {
     const bool is_there = std::any_of(objects_.begin(), objects_.end(),
                                       [&](const ObjectReport& object) { return object.id == told->first; });
+    if (!is_there && !connection_.is_ready()) return;
     if (!is_there) send(told->second.object, true);
     told = is_there ? std::next(told) : told_.erase(told);
   }

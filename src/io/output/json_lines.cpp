@@ -92,7 +92,7 @@ std::string JsonLines::frame(const OutputFrame& frame) {
     present[object.id] = is_new || was_seen_again ? Told{object.hits, frame.captured_at} : before->second;
   }
   for (const auto& [id, told] : told_) {
-    if (present.count(id) == 0) lines += line({{"type", "removed"}, {"id", id}});
+    if (present.count(id) == 0) lines += line({{"type", "removed"}, {"id", id}, {"status", "retracted"}});
   }
   told_ = std::move(present);
   return lines;

@@ -83,6 +83,28 @@ TEST(LiveDocument, WhatDidNotChangeIsNotSaidAgain) {
   EXPECT_TRUE(change.contains("view"));
 }
 
+/// An object that is no longer believed is shown as tentative, then not at all, and confirmed where it is
+/// back.
+TEST(LiveDocument, AnObjectIsShownAsConfirmedOnlyWhileItIs) {
+  LiveDocument document({"", true});
+  Mirror page;
+  enum class Belief { kConfirmed, kTentative, kGone };
+  int number = 0;
+  for (const Belief belief :
+       {Belief::kConfirmed, Belief::kTentative, Belief::kConfirmed, Belief::kTentative, Belief::kGone}) {
+    OutputFrame frame = page_frame(++number, 2);
+    const ObjectReport second = frame.objects[1];
+    if (belief != Belief::kConfirmed) frame.objects.pop_back();
+    if (belief == Belief::kTentative) frame.tentative.push_back(second);
+    document.add(frame);
+    page.take(document);
+    ASSERT_EQ(page.objects.count(second.id), belief == Belief::kGone ? 0U : 1U) << number;
+    if (belief != Belief::kGone) {
+      EXPECT_EQ(page.objects[second.id]["confirmed"], belief == Belief::kConfirmed) << number;
+    }
+  }
+}
+
 TEST(LiveDocument, StaysBoundedOnALongFlight) {
   LiveDocument document({"", true});
   for (int number = 0; number < 20000; ++number) document.add(page_frame(number, 1));

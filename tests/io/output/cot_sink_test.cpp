@@ -59,6 +59,29 @@ TEST(CotSink, AnObjectThatIsGoneIsToldOutOfDate) {
   EXPECT_TRUE(sent.is_silent());
 }
 
+TEST(CotSink, AnObjectThatIsBelievedAgainIsSentAgainAtOnce) {
+  Sent sent;
+  for (int round = 0; round < 3; ++round) {
+    sent.sink.on_frame(frame_of({7}));
+    EXPECT_EQ(sent.next().find("retracted"), std::string::npos);
+    sent.sink.on_frame(frame_of({}));
+    EXPECT_NE(sent.next().find("retracted"), std::string::npos);
+    sent.sink.on_frame(frame_of({}));
+    EXPECT_TRUE(sent.is_silent());
+  }
+}
+
+/// The run's last objects are fewer than the last frame's.
+TEST(CotSink, SaysAtTheEndWhatIsGone) {
+  Sent sent;
+  sent.sink.on_frame(frame_of({7}));
+  sent.next();
+  sent.sink.on_run({});
+  sent.sink.on_end();
+  EXPECT_NE(sent.next().find("retracted"), std::string::npos);
+  EXPECT_TRUE(sent.is_silent());
+}
+
 TEST(CotSink, SendsEveryObjectAgainAtTheEnd) {
   Sent sent;
   sent.sink.on_frame(frame_of({7}));

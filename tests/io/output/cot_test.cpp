@@ -58,6 +58,8 @@ TEST(CotEvent, OfAnObjectThatIsGoneIsOutOfDateAtOnce) {
   const std::string event = to_cot(a_car(), {"u", HostTime{}, true, {}}, {});
   EXPECT_NE(event.find("stale=\"1970-01-01T00:00:00.000Z\""), std::string::npos);
   EXPECT_NE(event.find("hae=\"9999999.00\""), std::string::npos);
+  EXPECT_NE(event.find("<remarks>retracted, confidence"), std::string::npos) << event;
+  EXPECT_EQ(to_cot(a_car(), {"u", HostTime{}, false, {}}, {}).find("retracted"), std::string::npos);
 }
 
 TEST(CotConfig, NamesItsFaults) {

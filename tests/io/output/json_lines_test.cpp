@@ -44,6 +44,29 @@ TEST(JsonLines, TellAnObjectWhenItIsNewAndWhenItIsGone) {
   EXPECT_EQ(shape(lines.frame(frame_with({{2, 3}}, 3s))), "frame");
 }
 
+/// However it went: merged, removed, or no longer believed.
+TEST(JsonLines, SayOnceThatAnObjectIsRetractedAndTellItAnewWhenItIsBack) {
+  JsonLines lines;
+  lines.frame(frame_with({{1, 3}}, 0s));
+  const std::string gone = lines.frame(frame_with({}, 1s));
+  const auto json = nlohmann::json::parse(gone.substr(gone.find('\n') + 1));
+  EXPECT_EQ(json["type"], "removed");
+  EXPECT_EQ(json["id"], 1);
+  EXPECT_EQ(json["status"], "retracted");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(shape(lines.frame(frame_with({}, 2s))), "frame");
+  EXPECT_EQ(shape(lines.frame(frame_with({{1, 4}}, 3s))), "frame object:1");
+  EXPECT_EQ(shape(lines.frame(frame_with({}, 4s))), "frame removed:1");
+}
+
+TEST(JsonLines, SayNothingOfAnObjectThatWasOnlyEverTentative) {
+  JsonLines lines;
+  OutputFrame frame = frame_with({{1, 3}}, 0s);
+  frame.tentative = std::move(frame.objects);
+  frame.objects.clear();
+  EXPECT_EQ(shape(lines.frame(frame)), "frame");
+  EXPECT_EQ(shape(lines.frame(frame_with({}, 1s))), "frame");
+}
+
 TEST(JsonLines, TellAnObjectThatIsSeenAgainOnceASecond) {
   JsonLines lines;
   int told = 0;

@@ -15,8 +15,9 @@
 namespace geoloc::io {
 
 /// Sends confirmed objects as Cursor on Target events: immediately, then every cot.period_s and at the end of
-/// the run. A removed object is sent once more as stale. An object's uid is `prefix.run.id`, where `run` is
-/// the time of the run's first frame: it stays the same in a replay and is never that of another object.
+/// the run. An object that is gone is sent once more as stale. An object's uid is `prefix.run.id`, where
+/// `run` is the time of the run's first frame: it stays the same in a replay and is never that of another
+/// object.
 class CotSink final : public Sink {
  public:
   CotSink(std::string target, const CotConfig& config, const CotConnection::Tell& tell);
@@ -32,9 +33,10 @@ class CotSink final : public Sink {
  private:
   struct Told {
     ObjectReport object;
-    CotConnection::Clock::time_point at;
+    std::optional<CotConnection::Clock::time_point> at;  // nullopt: not on this connection
   };
 
+  void tell_all_again();
   void send_due();
   void send(const ObjectReport& object, bool is_gone);
 
@@ -45,7 +47,7 @@ class CotSink final : public Sink {
   std::string run_;  // of the uid
   std::vector<ObjectReport> objects_;
   std::map<std::uint64_t, Told> told_;  // by the object's id
-  std::uint64_t connections_ = 0;       // when told_ began
+  std::uint64_t connections_ = 0;       // when told_ was true
 };
 
 }  // namespace geoloc::io

@@ -17,7 +17,7 @@ namespace geoloc::io {
 class JsonLines {
  public:
   /// Lines of a frame, each ended by a newline: `frame`, one `object` per object that is new or was seen
-  /// again, and one `removed` per object that is gone.
+  /// again, and one `removed` per object that is gone: merged, removed, or no longer believed.
   std::string frame(const OutputFrame& frame);
 
   /// A `status` line.
