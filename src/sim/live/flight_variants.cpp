@@ -5,67 +5,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <optional>
-#include <utility>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/sim/flight/mavlink_frame.hpp"
 #include "geoloc/sim/live/recorded_streams.hpp"
 #include "geoloc/sim/random.hpp"
+#include "log_builder.hpp"
 
 namespace geoloc::sim {
 namespace {
-
-/// Collects frames, and puts them in the order of time.
-class LogBuilder {
- public:
-  void add(HostTime received_at, Datagram frame) { records_.emplace_back(received_at, std::move(frame)); }
-
-  void add(const io::TlogRecord& record) {
-    add(record.received_at, Datagram(record.frame, record.frame + record.size));
-  }
-
-  void add(HostTime received_at, const FrameView& like, const Payload& payload) {
-    add(received_at,
-        encode_frame(like.message_id, {like.system_id, like.component_id}, sequence_++, payload));
-  }
-
-  io::Tlog build() {
-    const auto is_earlier = [](const auto& a, const auto& b) { return a.first < b.first; };
-    std::stable_sort(records_.begin(), records_.end(), is_earlier);
-    std::vector<std::uint8_t> bytes;
-    for (const auto& [received_at, frame] : records_) {
-      const auto stamp_us = static_cast<std::uint64_t>(
-          std::chrono::round<std::chrono::microseconds>(received_at.time_since_epoch()).count());
-      for (int shift = 56; shift >= 0; shift -= 8)
-        bytes.push_back(static_cast<std::uint8_t>(stamp_us >> static_cast<unsigned>(shift)));
-      bytes.insert(bytes.end(), frame.begin(), frame.end());
-    }
-    return io::Tlog(std::move(bytes));
-  }
-
- private:
-  std::vector<std::pair<HostTime, Datagram>> records_;
-  std::uint8_t sequence_ = 0;
-};
-
-template <typename Fields>
-Fields fields_in(const FrameView& frame) {
-  const Payload payload = whole_payload(frame);
-  Fields fields;
-  std::memcpy(&fields, payload.data(), sizeof fields);
-  return fields;
-}
-
-template <typename Fields>
-Payload payload_with(const Fields& fields) {
-  Payload payload{};
-  std::memcpy(payload.data(), &fields, sizeof fields);
-  return payload;
-}
 
 std::optional<Payload> raised_payload(const FrameView& frame, double metres) {
   const auto metres_mm = static_cast<std::int32_t>(std::lround(metres * 1e3));
