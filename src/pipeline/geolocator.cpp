@@ -84,15 +84,18 @@ class Geolocator::Implementation {
   Counters counters;
 
  private:
+  void anchor_state(VehicleTime captured_at);
   void select(const std::vector<Detection>& detections);
   void locate();
 
+  bool has_object_ = false;  // a confirmed one
   std::vector<Detection> selected_;
 };
 
 bool Geolocator::Implementation::process(const FrameDetections& frame) {
   ++counters.frames;
   const FrameStamp stamp{frame.captured_at, frame.captured_at_host};
+  anchor_state(frame.captured_at);
   const auto nominal_view = viewer.nominal_view(stamp, tracker->calibration().latency_s());
   if (!nominal_view) {
     ++counters.frames_unusable;
@@ -106,6 +109,16 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
   locate();
   tracker->update({located, projector, view, *state.local_frame(), stamp, viewer});
   return true;
+}
+
+/// Nothing is on the map until an object is confirmed: of the states before and after a step, the newest is
+/// more often right. From then on the map must not jump.
+void Geolocator::Implementation::anchor_state(VehicleTime captured_at) {
+  const auto& tracks = tracker->tracks();
+  has_object_ = has_object_ || std::any_of(tracks.begin(), tracks.end(), [](const Track& track) {
+                  return track.status == TrackStatus::kConfirmed;
+                });
+  if (!has_object_) state.anchor(captured_at - from_seconds(tracker->calibration().latency_s()));
 }
 
 void Geolocator::Implementation::select(const std::vector<Detection>& detections) {
