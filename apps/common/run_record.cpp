@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "common/run_score.hpp"
+#include "common/state_news.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/projection/projector.hpp"
+#include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -27,6 +29,12 @@ std::string unused_known_points(const Geolocator& geolocator) {
   return lines;
 }
 
+/// What a person should know besides the figures.
+std::string remarks(const Session& session) {
+  const std::string jumps = count_of_jumps(session.geolocator().state().counters());
+  return (jumps.empty() ? "" : "\n" + jumps) + unused_known_points(session.geolocator());
+}
+
 }  // namespace
 
 io::RunRecord record_run(const Session& session, const std::vector<std::string>& class_names,
@@ -46,13 +54,13 @@ io::RunRecord record_run(const Session& session, const std::vector<std::string>&
 }
 
 std::string summarize_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
-  const std::string unused = unused_known_points(session.geolocator());
+  const std::string also = remarks(session);
   const std::uint64_t frames = session.frames();
   if (truth.empty()) {
     return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",
                        io::report_objects(session.geolocator(), {}).size(),
                        session.history().raw_fixes().size(), frames, session.frames_unusable()) +
-           unused;
+           also;
   }
   const Score score = score_run(session, truth);
   return fmt::format(
@@ -61,7 +69,7 @@ std::string summarize_run(const Session& session, const std::vector<io::TrueTarg
              "vehicle state)",
              score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
              frames, session.frames_unusable()) +
-         unused;
+         also;
 }
 
 }  // namespace geoloc::apps

@@ -39,6 +39,10 @@ ordered_json counters_to_json(const RunCounters& counters) {
           {"attitudes", counters.attitudes},
           {"positions", counters.positions},
           {"reboots", counters.reboots},
+          {"home_moves", counters.home_moves},
+          {"position_steps", counters.position_steps},
+          {"height_steps", counters.height_steps},
+          {"yaw_steps", counters.yaw_steps},
           {"tracks_created", counters.tracks_created},
           {"tracks_removed", counters.tracks_removed},
           {"tracks_merged", counters.tracks_merged}};
