@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,10 +19,18 @@ enum class AttitudeInterpolation {
 
 struct StateConfig {
   AttitudeInterpolation attitude_interpolation = AttitudeInterpolation::kSlerp;
-  double max_gap_s = 0.6;              ///< a longer hole in the telemetry gives no state
+  double max_gap_s = 3.0;              ///< a longer hole in the telemetry gives no state
   double max_extrapolation_s = 0.005;  ///< beyond the newest sample; more is guessing
 
   std::vector<std::string> problems() const;
+};
+
+/// Steps of the state that the vehicle itself did not make: a GNSS glitch and its end, a filter's reset, a
+/// new base station. Sums since the flight's start; components are east, north, up [m], yaw [rad, clockwise].
+struct StateSteps {
+  std::uint32_t segment = 0;  ///< rises with each
+  Eigen::Vector4d size = Eigen::Vector4d::Zero();
+  Eigen::Vector4d variance = Eigen::Vector4d::Zero();  ///< of the size
 };
 
 /// Where the vehicle was at one instant.
@@ -32,6 +41,10 @@ struct VehicleState {
   Eigen::Vector3d angular_velocity_in_body =
       Eigen::Vector3d::Zero();               ///< [rad/s], of the interpolation's segment
   std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
+  double sigma_position_m = 0.0;             ///< that interpolation adds, per horizontal axis
+  double sigma_turn_rad = 0.0;               ///< the same, about each axis
+  Duration telemetry_gap{};  ///< between the samples around: what interpolation is off by lasts so long
+  StateSteps steps;          ///< up to now; they are taken out of the pose, which goes on as before them
 };
 
 /// Why there is no state at a time.
