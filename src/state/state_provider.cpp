@@ -59,6 +59,7 @@ void StateProvider::restart() {
   ++counters_.reboots;
   attitudes_.clear();
   positions_.clear();
+  home_.restart();
   boot_clock_ = BootClockMonitor{};
 }
 
@@ -87,7 +88,8 @@ void StateProvider::add(const PositionSample& sample) {
     return;
   }
   LocalPosition position;
-  position.position_in_enu << local.position_in_enu, sample.height_above_home_m;
+  position.position_in_enu << local.position_in_enu,
+      home_.above_first_home_m(sample.time, sample.height_above_home_m, sample.height_msl_m);
   position.convergence_rad = local.convergence_rad;
   if (positions_.insert(sample.time, position)) sigma_horizontal_m_ = sample.sigma_horizontal_m;
 }
@@ -120,6 +122,7 @@ StateProvider::Counters StateProvider::counters() const {
   all.attitudes = attitudes_.counters().inserted;
   all.positions = positions_.counters().inserted;
   all.duplicates = attitudes_.counters().duplicates + positions_.counters().duplicates;
+  all.home_moves = home_.moves();
   all.stale = attitudes_.counters().stale + positions_.counters().stale;
   return all;
 }

@@ -7,6 +7,7 @@
 
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/state/boot_clock_monitor.hpp"
+#include "geoloc/state/home_datum.hpp"
 #include "geoloc/state/samples.hpp"
 #include "geoloc/state/state_buffer.hpp"
 #include "geoloc/state/vehicle_state.hpp"
@@ -40,6 +41,7 @@ class StateProvider {
     std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
     std::uint64_t suspect_stamps = 0;  ///< far from the others' times
     std::uint64_t reboots = 0;
+    std::uint64_t home_moves = 0;  ///< in flight: heights stay above the first home
   };
 
   /// Throws std::invalid_argument naming every problem.
@@ -58,6 +60,9 @@ class StateProvider {
 
   /// Height of home above mean sea level, as of the first position; nullopt where that told none.
   const std::optional<double>& home_height_msl_m() const { return home_height_msl_m_; }
+  /// Where home is now, and where the first one was.
+  const HomeDatum& home() const { return home_; }
+
   Counters counters() const;
 
  private:
@@ -66,6 +71,7 @@ class StateProvider {
   StateConfig config_;
   std::optional<LocalFrame> frame_;
   std::optional<double> home_height_msl_m_;
+  HomeDatum home_;
   StateBuffer<EulerAngles> attitudes_;
   StateBuffer<LocalPosition> positions_;
   std::optional<double> sigma_horizontal_m_;
