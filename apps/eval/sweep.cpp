@@ -9,6 +9,7 @@
 #include "geoloc/sim/flight/random_stream.hpp"
 #include "geoloc/sim/flight/scenario.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
+#include "geoloc/sim/live/state_jumps.hpp"
 #include "geoloc/sim/random.hpp"
 
 namespace geoloc::apps {
@@ -51,7 +52,7 @@ Sweep telemetry_rate() {
               "Telemetry rate",
               "rate of attitudes and positions, Hz",
               true,
-              {2.0, 3.0, 5.0, 10.0, 20.0, 50.0},
+              {1.0, 2.0, 3.0, 5.0, 10.0, 20.0, 50.0},
               kTelemetryRate_hz};
   sweep.flight_at = [](const sim::Flight& flight, double value) {
     return sim::at_telemetry_rate(flight, value);
@@ -101,6 +102,23 @@ Sweep attitude_noise(const std::string& name, const std::string& title, double t
   Sweep sweep{name, title, "1-sigma of each angle, deg", false, {0.0, 0.3, 0.5, 1.0, 1.5}};
   sweep.flight_at = [time_constant_s](const sim::Flight& flight, double value) {
     return sim::with_attitude_noise(flight, {value, time_constant_s});
+  };
+  return sweep;
+}
+
+/// One value a jump; 0: none.
+Sweep jumps() {
+  const std::vector<std::string> names = sim::state_jump_names();
+  Sweep sweep{"jumps", "Jumps of the vehicle's state", "0: none", false, {0.0}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    sweep.values.push_back(static_cast<double>(i + 1));
+    sweep.axis += ", " + std::to_string(i + 1) + ": " + names[i];
+  }
+  sweep.flight_at = [names](const sim::Flight& flight, double value) {
+    const auto number = static_cast<std::size_t>(value);
+    const bool is_none = number == 0;
+    return sim::with_jump(flight,
+                          is_none ? sim::StateJump{} : sim::state_jump(names.at(number - 1), flight.truth));
   };
   return sweep;
 }
@@ -158,6 +176,7 @@ const std::vector<Sweep>& all_sweeps() {
                                          take_off(),
                                          attitude_noise("attitude", "Attitude noise, white", 0.0),
                                          attitude_noise("attitude-slow", "Attitude noise over 4 s", 4.0),
+                                         jumps(),
                                          pairs(),
                                          misses(),
                                          clutter(),

@@ -2,10 +2,10 @@
 #include "sim/run_options.hpp"
 
 #include <filesystem>
-#include <utility>
 
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
+#include "geoloc/sim/live/state_jumps.hpp"
 
 namespace geoloc::sim {
 
@@ -25,6 +25,12 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kFlight, "--raise-m", options.raised_m, "Fly so much higher than was flown (20 m), m")
       ->capture_default_str()
       ->check(CLI::Range(-15.0, 400.0));
+  add(kFlight, "--jump", options.jump,
+      "In the middle of the survey, what the autopilot believes jumps: glitch (50 m for 5 s), reset (3 m), "
+      "height (10 m), yaw (20 deg), home (set 3 m lower) [none]")
+      ->type_name("NAME");
+  add(kFlight, "--telemetry-rate", options.telemetry_rate_hz, "Attitudes and positions a second [as flown]")
+      ->check(CLI::Range(0.1, 100.0));
   add(kFlight, "--start-s", settings.start_s, "Begin, s on the vehicle's clock [at survey height]");
   add(kFlight, "--end-s", settings.end_s, "End, s on the vehicle's clock [survey height left]");
 
@@ -65,7 +71,10 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed) {
 Flight load_flight(const RunOptions& options) {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
   Flight flight = load_flight(find_flights(options.data_folder, program), options.flight);
-  return options.raised_m == 0.0 ? std::move(flight) : raised(flight, options.raised_m);
+  if (options.raised_m != 0.0) flight = raised(flight, options.raised_m);
+  if (options.telemetry_rate_hz) flight = at_telemetry_rate(flight, *options.telemetry_rate_hz);
+  if (!options.jump.empty()) flight = with_jump(flight, state_jump(options.jump, flight.truth));
+  return flight;
 }
 
 }  // namespace geoloc::sim

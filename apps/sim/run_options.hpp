@@ -15,6 +15,8 @@ struct RunOptions {
   std::string flight = "stock_path1";
   std::optional<std::string> data_folder;
   double raised_m = 0.0;
+  std::string jump;  ///< its name; empty: none
+  std::optional<double> telemetry_rate_hz;
   double horizontal_fov_deg = 70.0;
   std::array<double, 5> distortion{};
   bool uncalibrated_lens = false;
