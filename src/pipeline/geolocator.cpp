@@ -90,10 +90,12 @@ class Geolocator::Implementation {
 
  private:
   std::optional<double> range_at(VehicleTime time) const;
+  void anchor_state(VehicleTime captured_at);
   void lift(FrameView nominal_view);
   void select(const std::vector<Detection>& detections);
   void locate();
 
+  bool has_object_ = false;  // a confirmed one
   StateBuffer<double> ranges_;
   std::uint64_t reboots_ = 0;  // when ranges_ was begun
   std::vector<Detection> selected_;
@@ -123,6 +125,7 @@ std::optional<double> Geolocator::Implementation::range_at(VehicleTime time) con
 bool Geolocator::Implementation::process(const FrameDetections& frame) {
   ++counters.frames;
   const FrameStamp stamp{frame.captured_at, frame.captured_at_host};
+  anchor_state(frame.captured_at);
   const auto nominal_view = viewer.nominal_view(stamp, tracker->calibration().latency_s());
   if (!nominal_view) {
     ++counters.frames_unusable;
@@ -145,6 +148,16 @@ void Geolocator::Implementation::lift(FrameView nominal_view) {
   if (config.method == Method::kJoint) nominal_view.terrain_m = ground.height_m(camera.head<2>());
   const double reported_m = camera.z() - config.projector.ground_height_above_home_m - nominal_view.terrain_m;
   view = calibrated(nominal_view, tracker->calibration(), tracker->lift_m(reported_m));
+}
+
+/// Nothing is on the map until an object is confirmed: of the states before and after a step, the newest is
+/// more often right. From then on the map must not jump.
+void Geolocator::Implementation::anchor_state(VehicleTime captured_at) {
+  const auto& tracks = tracker->tracks();
+  has_object_ = has_object_ || std::any_of(tracks.begin(), tracks.end(), [](const Track& track) {
+                  return track.status == TrackStatus::kConfirmed;
+                });
+  if (!has_object_) state.anchor(captured_at - from_seconds(tracker->calibration().latency_s()));
 }
 
 void Geolocator::Implementation::select(const std::vector<Detection>& detections) {

@@ -14,21 +14,42 @@ namespace {
 /// One tangent plane serves this far: the turn of north is followed, and lengths are true to 5e-4.
 constexpr double kFrameReach_m = 200e3;
 
+StateSteps sum(const StateSteps& a, const StateSteps& b) {
+  return {a.segment + b.segment, a.size + b.size, a.variance + b.variance};
+}
+
+/// Nothing is known of between two samples with a step from one to the other.
+template <typename Sample>
+std::optional<NoState> step_in(const Bracket<Sample>& bracket) {
+  if (bracket.before.steps.segment == bracket.after.steps.segment) return std::nullopt;
+  return bracket.alpha > 1.0 ? NoState::kNotYet : NoState::kInAGap;
+}
+
+/// A late sample has the steps of the ones around it; where these differ, it is of no use.
+template <typename Sample, std::size_t N>
+std::optional<StateSteps> steps_around(VehicleTime time, const StateBuffer<Sample, N>& buffer,
+                                       const StateSteps& otherwise) {
+  const auto around = buffer.bracket(time, Duration::max(), Duration::zero());
+  if (!around) return otherwise;
+  if (step_in(*around)) return std::nullopt;
+  return around->before.steps;
+}
+
 bool is_finite(const EulerAngles& angles) {
   return std::isfinite(angles.roll_rad) && std::isfinite(angles.pitch_rad) && std::isfinite(angles.yaw_rad);
 }
 
-Eigen::Quaterniond interpolate_attitude(const Bracket<EulerAngles>& bracket, AttitudeInterpolation how) {
-  if (how == AttitudeInterpolation::kCircular) return ned_from_body(bracket.interpolated());
-  return Interpolator<Eigen::Quaterniond>::between(ned_from_body(bracket.before),
-                                                   ned_from_body(bracket.after), bracket.alpha);
+Eigen::Quaterniond interpolate_attitude(const EulerAngles& before, const EulerAngles& after, double alpha,
+                                        AttitudeInterpolation how) {
+  if (how == AttitudeInterpolation::kCircular)
+    return ned_from_body(Interpolator<EulerAngles>::between(before, after, alpha));
+  return Interpolator<Eigen::Quaterniond>::between(ned_from_body(before), ned_from_body(after), alpha);
 }
 
-Eigen::Vector3d angular_velocity_in_body(const Bracket<EulerAngles>& bracket) {
-  const Eigen::Quaterniond before_from_after =
-      ned_from_body(bracket.before).conjugate() * ned_from_body(bracket.after);
-  const Eigen::AngleAxisd turn(before_from_after);
-  return wrap_to_pi(turn.angle()) / seconds(bracket.spacing) * turn.axis();
+Eigen::Vector3d angular_velocity_in_body(const EulerAngles& before, const EulerAngles& after,
+                                         Duration spacing) {
+  const Eigen::AngleAxisd turn(ned_from_body(before).conjugate() * ned_from_body(after));
+  return wrap_to_pi(turn.angle()) / seconds(spacing) * turn.axis();
 }
 
 }  // namespace
@@ -60,6 +81,7 @@ void StateProvider::restart() {
   attitudes_.clear();
   positions_.clear();
   home_.restart();
+  watch_.restart();
   boot_clock_ = BootClockMonitor{};
 }
 
@@ -68,7 +90,14 @@ void StateProvider::add(const AttitudeSample& sample) {
     ++counters_.invalid;
     return;
   }
-  if (accept_stamp(sample.time)) attitudes_.insert(sample.time, sample.angles);
+  if (!accept_stamp(sample.time)) return;
+  auto steps = watch_.observe(sample.time, sample.angles);
+  if (!steps) steps = steps_around(sample.time, attitudes_, watch_.steps_of_attitude());
+  if (!steps) {
+    ++counters_.stale;
+    return;
+  }
+  attitudes_.insert(sample.time, {sample.angles, *steps});
 }
 
 void StateProvider::add(const PositionSample& sample) {
@@ -91,30 +120,60 @@ void StateProvider::add(const PositionSample& sample) {
   position.position_in_enu << local.position_in_enu,
       home_.above_first_home_m(sample.time, sample.height_above_home_m, sample.height_msl_m);
   position.convergence_rad = local.convergence_rad;
-  if (positions_.insert(sample.time, position)) sigma_horizontal_m_ = sample.sigma_horizontal_m;
+  auto steps = watch_.observe(sample.time, position.position_in_enu);
+  if (!steps) steps = steps_around(sample.time, positions_, watch_.steps_of_position());
+  if (!steps) {
+    ++counters_.stale;
+    return;
+  }
+  if (positions_.insert(sample.time, {position, *steps})) sigma_horizontal_m_ = sample.sigma_horizontal_m;
 }
 
-Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
+Expected<StateProvider::Brackets, NoState> StateProvider::brackets(VehicleTime time) const {
   const Duration max_gap = from_seconds(config_.max_gap_s);
   const Duration max_extrapolation = from_seconds(config_.max_extrapolation_s);
   const auto position = positions_.bracket(time, max_gap, max_extrapolation);
   if (!position) return position.error();
   const auto attitude = attitudes_.bracket(time, max_gap, max_extrapolation);
   if (!attitude) return attitude.error();
+  if (const auto step = step_in(*position)) return *step;
+  if (const auto step = step_in(*attitude)) return *step;
+  return Brackets{*position, *attitude};
+}
 
-  const LocalPosition here = position->interpolated();
-  const Eigen::Quaterniond true_north_turn(Eigen::AngleAxisd(here.convergence_rad, Eigen::Vector3d::UnitZ()));
+Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
+  const auto found = brackets(time);
+  if (!found) return found.error();
+  const auto& [position, attitude] = *found;
+  const LocalPosition &place_before = position.before.value, &place_after = position.after.value;
+  const EulerAngles &angles_before = attitude.before.value, &angles_after = attitude.after.value;
+  const LocalPosition here = Interpolator<LocalPosition>::between(place_before, place_after, position.alpha);
+
   VehicleState state;
   state.time = time;
+  state.steps = sum(position.before.steps, attitude.before.steps);
+  const Eigen::Vector4d stepped = state.steps.size - anchor_.size;
+  const Eigen::AngleAxisd true_north_turn(here.convergence_rad, Eigen::Vector3d::UnitZ());
+  const Eigen::AngleAxisd turn_back(stepped[3], Eigen::Vector3d::UnitZ());
   state.enu_from_body.rotation =
-      (enu_from_ned() * true_north_turn * interpolate_attitude(*attitude, config_.attitude_interpolation))
+      (turn_back * enu_from_ned() * true_north_turn *
+       interpolate_attitude(angles_before, angles_after, attitude.alpha, config_.attitude_interpolation))
           .normalized();
-  state.enu_from_body.translation = here.position_in_enu;
+  state.enu_from_body.translation = here.position_in_enu - stepped.head<3>();
   state.velocity_in_enu =
-      (position->after.position_in_enu - position->before.position_in_enu) / seconds(position->spacing);
-  state.angular_velocity_in_body = angular_velocity_in_body(*attitude);
+      (place_after.position_in_enu - place_before.position_in_enu) / seconds(position.spacing);
+  state.angular_velocity_in_body = angular_velocity_in_body(angles_before, angles_after, attitude.spacing);
   state.sigma_horizontal_m = sigma_horizontal_m_;
   return state;
+}
+
+void StateProvider::anchor(VehicleTime time) {
+  const auto found = brackets(time);
+  if (found) anchor_ = sum(found->position.before.steps, found->attitude.before.steps);
+}
+
+StateSteps StateProvider::steps() const {
+  return sum(watch_.steps_of_position(), watch_.steps_of_attitude());
 }
 
 StateProvider::Counters StateProvider::counters() const {
@@ -122,8 +181,11 @@ StateProvider::Counters StateProvider::counters() const {
   all.attitudes = attitudes_.counters().inserted;
   all.positions = positions_.counters().inserted;
   all.duplicates = attitudes_.counters().duplicates + positions_.counters().duplicates;
+  all.stale += attitudes_.counters().stale + positions_.counters().stale;
   all.home_moves = home_.moves();
-  all.stale = attitudes_.counters().stale + positions_.counters().stale;
+  all.position_steps = watch_.horizontal_steps();
+  all.height_steps = watch_.height_steps();
+  all.yaw_steps = watch_.yaw_steps();
   return all;
 }
 

@@ -10,6 +10,7 @@
 #include "geoloc/state/home_datum.hpp"
 #include "geoloc/state/samples.hpp"
 #include "geoloc/state/state_buffer.hpp"
+#include "geoloc/state/step_watch.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 
 namespace geoloc {
@@ -28,20 +29,33 @@ struct Interpolator<LocalPosition> {
   }
 };
 
+/// A sample with the steps of its own quantity up to it.
+template <typename T>
+struct WithSteps {
+  T value;
+  StateSteps steps;
+};
+
 /// Interpolates the asynchronous position and attitude of the vehicle (paper, section 3.2). The local frame's
 /// origin is the first position. A reboot of the vehicle empties the buffers; the frame stays.
+///
+/// Where the vehicle's own state steps, states go on as before the step, and there is none between the two
+/// samples. Heights are above the first home.
 class StateProvider {
  public:
   struct Counters {
     std::uint64_t attitudes = 0;       ///< taken in
     std::uint64_t positions = 0;       ///< taken in
     std::uint64_t duplicates = 0;      ///< same time as a sample before
-    std::uint64_t stale = 0;           ///< older than all that is kept
+    std::uint64_t stale = 0;           ///< older than all that is kept, or late where the state steps
     std::uint64_t invalid = 0;         ///< not finite, or no place on Earth
     std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
     std::uint64_t suspect_stamps = 0;  ///< far from the others' times
     std::uint64_t reboots = 0;
-    std::uint64_t home_moves = 0;  ///< in flight: heights stay above the first home
+    std::uint64_t home_moves = 0;      ///< in flight
+    std::uint64_t position_steps = 0;  ///< horizontally
+    std::uint64_t height_steps = 0;
+    std::uint64_t yaw_steps = 0;
   };
 
   /// Throws std::invalid_argument naming every problem.
@@ -51,6 +65,10 @@ class StateProvider {
   void add(const PositionSample& sample);
 
   Expected<VehicleState, NoState> at(VehicleTime time) const;
+
+  /// States from now on, also those of earlier times, go on from the one of that time: for as long as nothing
+  /// hangs on the ones before, since the newest are more often right.
+  void anchor(VehicleTime time);
 
   /// Forgets all samples: for callers who know of a reboot before the stamps show it.
   void restart();
@@ -63,17 +81,28 @@ class StateProvider {
   /// Where home is now, and where the first one was.
   const HomeDatum& home() const { return home_; }
 
+  /// All steps noticed so far.
+  StateSteps steps() const;
+
   Counters counters() const;
 
  private:
+  struct Brackets {
+    Bracket<WithSteps<LocalPosition>> position;
+    Bracket<WithSteps<EulerAngles>> attitude;
+  };
+
   bool accept_stamp(VehicleTime stamp);
+  Expected<Brackets, NoState> brackets(VehicleTime time) const;
 
   StateConfig config_;
   std::optional<LocalFrame> frame_;
   std::optional<double> home_height_msl_m_;
   HomeDatum home_;
-  StateBuffer<EulerAngles> attitudes_;
-  StateBuffer<LocalPosition> positions_;
+  StepWatch watch_;
+  StateBuffer<WithSteps<EulerAngles>> attitudes_;
+  StateBuffer<WithSteps<LocalPosition>> positions_;
+  StateSteps anchor_;
   std::optional<double> sigma_horizontal_m_;
   BootClockMonitor boot_clock_;
   Counters counters_;

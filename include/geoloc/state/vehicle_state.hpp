@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,14 @@ struct StateConfig {
   std::vector<std::string> problems() const;
 };
 
+/// Steps of the state that the vehicle itself did not make: a GNSS glitch and its end, a filter's reset, a
+/// new base station. Sums since the flight's start; components are east, north, up [m], yaw [rad, clockwise].
+struct StateSteps {
+  std::uint32_t segment = 0;  ///< rises with each
+  Eigen::Vector4d size = Eigen::Vector4d::Zero();
+  Eigen::Vector4d variance = Eigen::Vector4d::Zero();  ///< of the size
+};
+
 /// Where the vehicle was at one instant.
 struct VehicleState {
   VehicleTime time;
@@ -32,6 +41,7 @@ struct VehicleState {
   Eigen::Vector3d angular_velocity_in_body =
       Eigen::Vector3d::Zero();               ///< [rad/s], of the interpolation's segment
   std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
+  StateSteps steps;  ///< up to now; they are taken out of the pose, which goes on as before them
 };
 
 /// Why there is no state at a time.

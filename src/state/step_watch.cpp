@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/state/step_watch.hpp"
+
+#include <cmath>
+
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc {
+namespace {
+
+/// Multicopters and small wings accelerate by less than 7 m/s^2, and turn with less than 270 deg/s^2.
+constexpr StepLimits kHorizontal{1.0, 7.0, 0.3, 0.02};
+constexpr StepLimits kHeight{1.0, 7.0, 0.2, 0.02};
+constexpr StepLimits kYaw{6.0 * kRadPerDeg, 270.0 * kRadPerDeg, 1.0 * kRadPerDeg, 0.02};
+/// Yaw says nothing where the nose points up or down.
+constexpr double kMostPitch_rad = 60.0 * kRadPerDeg;
+
+constexpr int kUp = 2, kYawRow = 3;
+
+}  // namespace
+
+StepWatch::StepWatch() : horizontal_(kHorizontal), height_(kHeight), yaw_(kYaw) {}
+
+std::optional<StateSteps> StepWatch::observe(VehicleTime time, const Eigen::Vector3d& position_in_enu) {
+  if (newest_position_ && time <= *newest_position_) return std::nullopt;
+  newest_position_ = time;
+  horizontal_.observe(time, position_in_enu.head<2>());
+  height_.observe(time, position_in_enu.tail<1>());
+  return steps_of_position();
+}
+
+std::optional<StateSteps> StepWatch::observe(VehicleTime time, const EulerAngles& angles) {
+  if (newest_attitude_ && time <= *newest_attitude_) return std::nullopt;
+  newest_attitude_ = time;
+  if (std::abs(angles.pitch_rad) < kMostPitch_rad) {
+    yaw_rad_ += wrap_to_pi(angles.yaw_rad - yaw_rad_);
+    yaw_.observe(time, Eigen::Matrix<double, 1, 1>(yaw_rad_));
+  } else {
+    yaw_.restart();
+  }
+  return steps_of_attitude();
+}
+
+StateSteps StepWatch::steps_of_position() const {
+  StateSteps steps;
+  steps.segment = horizontal_.steps().count + height_.steps().count;
+  steps.size.head<2>() = horizontal_.steps().size;
+  steps.size[kUp] = height_.steps().size.value();
+  steps.variance.head<2>() = horizontal_.steps().variance;
+  steps.variance[kUp] = height_.steps().variance.value();
+  return steps;
+}
+
+StateSteps StepWatch::steps_of_attitude() const {
+  StateSteps steps;
+  steps.segment = yaw_.steps().count;
+  steps.size[kYawRow] = yaw_.steps().size.value();
+  steps.variance[kYawRow] = yaw_.steps().variance.value();
+  return steps;
+}
+
+void StepWatch::restart() {
+  horizontal_.restart();
+  height_.restart();
+  yaw_.restart();
+  newest_position_.reset();
+  newest_attitude_.reset();
+}
+
+}  // namespace geoloc
