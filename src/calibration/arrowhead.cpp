@@ -156,6 +156,7 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
   auto steps = solver_->sensitivities_.topRows(layout_.size());  // the third column stays zero
   for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number) {
     const DriftNode& node = drift.node(number);
+    if (node.is_after_step()) continue;
     const Eigen::Index here = layout_.column_of(number), before = here - kNodeSize;
     const Eigen::Array2d transition = node.transition.head<2>();
     const Eigen::Array2d step =
@@ -168,6 +169,7 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
     sum += ((step.square() + variance) * node.information.head<2>().array()).sum();
     count += 2;
   }
+  if (count == 0) return std::nullopt;
   return std::sqrt(sum / count);
 }
 

@@ -31,6 +31,10 @@ struct DriftNode {
   NodeVector transition = NodeVector::Zero();
   NodeVector information = NodeVector::Zero();
   NodeVector prior_mean = NodeVector::Zero();
+  /// Variance that a step of the vehicle's state adds to the prior.
+  NodeVector step_variance = NodeVector::Zero();
+
+  bool is_after_step() const { return step_variance.maxCoeff() > 0.0; }
 };
 
 /// The nodes of the last minutes, numbered from 0 at the start of the flight.
@@ -41,6 +45,10 @@ class DriftTimeline {
   /// Nodes around `time`, made if need be. sigma_position_m: 1-sigma per axis of the wandering, as believed
   /// now. Times run forward; where one runs back (the vehicle rebooted) the drift begins anew.
   NodeSpan cover(VehicleTime time, double sigma_position_m);
+
+  /// The same where the state has stepped since the last time: new nodes, that continue the ones before but
+  /// for so much in each component.
+  NodeSpan cover_after_step(VehicleTime time, double sigma_position_m, const NodeVector& step_variance);
 
   std::uint32_t begin() const { return begin_; }
   std::uint32_t end() const { return end_; }
@@ -58,7 +66,9 @@ class DriftTimeline {
   /// Information of a node's prior, with the wandering of the position scaled as set.
   NodeVector information(std::uint32_t number) const {
     const double position = 1.0 / (position_scale_ * position_scale_);
-    return node(number).information.cwiseProduct(NodeVector(position, position, 1.0, 1.0));
+    const NodeVector smooth = node(number).information.cwiseProduct(NodeVector(position, position, 1.0, 1.0));
+    if (!node(number).is_after_step()) return smooth;
+    return (smooth.cwiseInverse() + node(number).step_variance).cwiseInverse();
   }
 
   /// How strongly the position wanders against what the receiver's accuracy let expect.
@@ -70,6 +80,7 @@ class DriftTimeline {
 
  private:
   std::size_t slot(std::uint32_t number) const { return number & (nodes_.size() - 1); }
+  NodeSpan newest_span(VehicleTime time) const;
   void append(VehicleTime time, double sigma_position_m, bool continues);
 
   DriftConfig config_;

@@ -65,6 +65,12 @@ void SharedErrorEstimate::bound_height(double height_above_ground_m) {
   if (sigma_m > most_m) calibration_root.row(CalibrationIndex::kHeight) *= most_m / sigma_m;
 }
 
+void SharedErrorEstimate::widen_drift(const NodeVector& step_variance) {
+  NodeMatrix covariance = drift_root * drift_root.transpose();
+  covariance.diagonal() += step_variance;
+  drift_root = root_of(covariance);
+}
+
 void SharedErrorEstimate::take(const ArrowheadSolver::Solution& solution) {
   calibration = solution.calibration();
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)

@@ -66,6 +66,9 @@ struct SharedErrorEstimate {
   /// is above the ground. (Were it not, all looks could be looks at one object.) The next solution undoes it.
   void bound_height(double height_above_ground_m);
 
+  /// The vehicle's state has stepped: until the next solution its drift is less well known.
+  void widen_drift(const NodeVector& step_variance);
+
   /// Everything but the wandering's scale.
   void take(const ArrowheadSolver::Solution& solution);
 

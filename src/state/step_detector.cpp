@@ -13,8 +13,8 @@ constexpr double kUnusualDistance = 6.0;
 constexpr int kSamplesToJudge = 5;
 /// A velocity from before a longer pause predicts nothing.
 constexpr double kLongestPause_s = 3.0;
-/// A single wrong sample makes two steps: there and back.
-constexpr int kMostInARow = 3;
+/// A filter that is drawn to a new place takes some samples; a longer row of steps is motion after all.
+constexpr int kMostInARow = 8;
 /// How well a step's size is known, as a share of the most that acceleration may have added to it.
 constexpr double kUsualShareOfAcceleration = 0.25;
 
@@ -38,7 +38,12 @@ const StepSum<N>& StepDetector<N>::observe(VehicleTime time, const Vector& value
       ++steps_.count;
       steps_.size += size;
       steps_.variance.array() += sigma * sigma;
-      if (++steps_in_a_row_ >= kMostInARow) velocity_.reset();
+      row_ = steps_in_a_row_ > 0 ? Vector(row_ + size) : size;
+      if (++steps_in_a_row_ >= kMostInARow) {
+        velocity_.reset();
+        steps_.variance.array() += row_.squaredNorm();
+        steps_in_a_row_ = 0;
+      }
     } else {
       constexpr double kSlowest = 0.05;
       const double gain = std::max(kSlowest, 1.0 / ++samples_);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
@@ -142,7 +143,7 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   clutter_rate_.count_frame();
   tracks_.clear_evidence();
   DriftTimeline& drift = errors_.drift;
-  const NodeSpan span = drift.cover(vehicle.time, errors_.accuracy.wandering_sigma_m());
+  const NodeSpan span = cover(vehicle);
   while (drift.size() > config_.drift.max_nodes) {
     opening_looks_.close();
     for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
@@ -171,6 +172,20 @@ void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation
                        pairing.own_covariance, known_in_part * known_in_part.transpose()});
   }
   errors_.noise.learn_from_frame(fast_position_variance_m2(config_, errors_));
+}
+
+/// Where the state has stepped, tracks seen before say less of what comes.
+NodeSpan JointTracker::cover(const VehicleState& vehicle) {
+  const StateSteps before = std::exchange(steps_, vehicle.steps);
+  const double sigma_m = errors_.accuracy.wandering_sigma_m();
+  const bool goes_on = vehicle.steps.segment == before.segment || errors_.drift.size() == 0;
+  if (goes_on) return errors_.drift.cover(vehicle.time, sigma_m);
+  const NodeVector variance = (vehicle.steps.variance - before.variance).cwiseMax(0.0);
+  const NodeSpan span = errors_.drift.cover_after_step(vehicle.time, sigma_m, variance);
+  errors_.widen_drift(variance);
+  for (RestingObject& track : tracks_) refresh(track, errors_, span);
+  schedule_.request();
+  return span;
 }
 
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {

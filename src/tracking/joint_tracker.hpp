@@ -48,6 +48,7 @@ class JointTracker final : public Tracker {
   void bound_height(const Projector& projector, const FrameView& view);
   JointFrame begin_frame(const LocatedFrame& frame);
   void learn_noise(const std::vector<Look>& looks, const Explanation& explanation);
+  NodeSpan cover(const VehicleState& vehicle);
   void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
   void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
                       const JointFrame& frame);
@@ -66,6 +67,7 @@ class JointTracker final : public Tracker {
   ArrowheadSolver solver_;
   SharedErrorEstimate errors_;
   HeightLog heights_;
+  StateSteps steps_;  // of the vehicle's state, up to the last frame
   NoiseClock noise_clock_;
   SolutionSchedule schedule_;
   LookMaker look_maker_;

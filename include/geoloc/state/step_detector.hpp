@@ -60,6 +60,7 @@ class StepDetector {
   double usual_ = 0.0;  // distance from what was expected
   int samples_ = 0;
   int steps_in_a_row_ = 0;
+  Vector row_ = Vector::Zero();  // their sum
   StepSum<N> steps_;
 };
 
