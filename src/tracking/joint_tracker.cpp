@@ -184,7 +184,7 @@ NodeSpan JointTracker::cover(const VehicleState& vehicle) {
   const NodeSpan span = errors_.drift.cover_after_step(vehicle.time, sigma_m, variance);
   errors_.widen_drift(variance);
   for (RestingObject& track : tracks_) refresh(track, errors_, span);
-  schedule_.request();
+  schedule_.request_for_some_frames();
   return span;
 }
 

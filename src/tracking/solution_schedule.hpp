@@ -14,8 +14,11 @@ class SolutionSchedule {
   void count_frame() { ++frames_; }
   void request() { is_requested_ = true; }
 
+  /// Something has changed that the next frames will tell.
+  void request_for_some_frames() { eager_until_ = frames_ + kFramesAfterChange; }
+
   bool is_due(VehicleTime now) const {
-    return is_requested_ || frames_ <= kEagerFrames || !has_solution_ || now < solved_at_ ||
+    return is_requested_ || frames_ <= eager_until_ || !has_solution_ || now < solved_at_ ||
            seconds(now - solved_at_) >= period_s_;
   }
 
@@ -34,6 +37,7 @@ class SolutionSchedule {
 
  private:
   static constexpr int kEagerFrames = 100;
+  static constexpr int kFramesAfterChange = 20;
   static constexpr int kSolutionsToSettle = 150;
   static constexpr int kSolutionsPerLessonLater = 5;
 
@@ -42,6 +46,7 @@ class SolutionSchedule {
   VehicleTime solved_at_{};
   bool is_requested_ = false;
   int frames_ = 0;
+  int eager_until_ = kEagerFrames;
   int solutions_ = 0;
 };
 
