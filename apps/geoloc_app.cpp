@@ -102,6 +102,7 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
     if (status.is_due(now)) {
       const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
       tell_all(program.outputs.take_messages(), console);
+      tell_all(program.session.take_news(), console);
       console.update(state);
       program.outputs.post_status(state);
     }

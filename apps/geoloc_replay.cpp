@@ -183,6 +183,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", program->recording.skipped_lines);
   if (program->page) std::fprintf(stderr, "page: %s\n", program->page->url().c_str());
   replay_all(*program, stop);
+  for (const std::string& line : program->session.take_news())
+    std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());
 
   const io::RunRecord record =
       record_run(program->session, program->recording.class_names, program->truth, options.recording);

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "common/run_score.hpp"
+#include "common/state_news.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/projection/projector.hpp"
+#include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -36,6 +38,13 @@ std::string useless_terrain(const Geolocator& geolocator) {
   return "\nthe elevation model of --ground has no height where the flight began: is it of another place?";
 }
 
+/// What a person should know besides the figures.
+std::string remarks(const Session& session) {
+  const std::string jumps = count_of_jumps(session.geolocator().state().counters());
+  return (jumps.empty() ? "" : "\n" + jumps) + unused_known_points(session.geolocator()) +
+         useless_terrain(session.geolocator());
+}
+
 }  // namespace
 
 io::RunRecord record_run(const Session& session, const std::vector<std::string>& class_names,
@@ -55,14 +64,13 @@ io::RunRecord record_run(const Session& session, const std::vector<std::string>&
 }
 
 std::string summarize_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
-  const std::string unused =
-      unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
+  const std::string also = remarks(session);
   const std::uint64_t frames = session.frames();
   if (truth.empty()) {
     return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",
                        io::report_objects(session.geolocator(), {}).size(),
                        session.history().raw_fixes().size(), frames, session.frames_unusable()) +
-           unused;
+           also;
   }
   const Score score = score_run(session, truth);
   return fmt::format(
@@ -71,7 +79,7 @@ std::string summarize_run(const Session& session, const std::vector<io::TrueTarg
              "vehicle state)",
              score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
              frames, session.frames_unusable()) +
-         unused;
+         also;
 }
 
 }  // namespace geoloc::apps

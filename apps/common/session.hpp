@@ -8,6 +8,7 @@
 
 #include "common/estimation_config.hpp"
 #include "common/run_history.hpp"
+#include "common/state_news.hpp"
 #include "geoloc/io/mavlink/vehicle_link.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
 
@@ -44,6 +45,9 @@ class Session final : private io::TelemetrySink {
     return geolocator_.counters().frames_unusable + frames_without_clock_;
   }
 
+  /// What a user is to be told of the vehicle, since the last call.
+  std::vector<std::string> take_news() { return news_.take(); }
+
   const Geolocator& geolocator() const { return geolocator_; }
   const RunHistory& history() const { return history_; }
   const io::VehicleLink& link() const { return link_; }
@@ -51,16 +55,23 @@ class Session final : private io::TelemetrySink {
   Duration max_frame_wait() const { return max_frame_wait_; }
 
  private:
-  void on_attitude(const AttitudeSample& sample) override { geolocator_.add(sample); }
-  void on_position(const PositionSample& sample) override { geolocator_.add(sample); }
+  void on_attitude(const AttitudeSample& sample) override { take(sample); }
+  void on_position(const PositionSample& sample) override { take(sample); }
   void on_range(const RangeSample& sample) override { geolocator_.add(sample); }
   void on_reboot() override { geolocator_.on_vehicle_reboot(); }
   void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) override;
+
+  template <typename Sample>
+  void take(const Sample& sample) {
+    geolocator_.add(sample);
+    news_.note(geolocator_.state());
+  }
 
   Duration max_frame_wait_;
   io::VehicleLink link_;
   Geolocator geolocator_;
   RunHistory history_;
+  StateNews news_;
   OnTelemetry on_telemetry_;
   FrameDetections frame_;                   // reused
   std::uint64_t frames_without_clock_ = 0;  // before the vehicle's clock was known

@@ -9,7 +9,7 @@ namespace geoloc {
 namespace {
 
 /// Multicopters and small wings accelerate by less than 7 m/s^2, and turn with less than 270 deg/s^2.
-constexpr StepLimits kHorizontal{1.0, 7.0, 0.15, 0.005};
+constexpr StepLimits kHorizontal{1.0, 7.0, 0.3, 0.005};
 constexpr StepLimits kHeight{1.0, 7.0, 0.2, 0.02};
 constexpr StepLimits kYaw{6.0 * kRadPerDeg, 270.0 * kRadPerDeg, 1.0 * kRadPerDeg, 0.02};
 /// Yaw says nothing where the nose points up or down.

@@ -52,7 +52,7 @@ class StateProvider {
     std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
     std::uint64_t suspect_stamps = 0;  ///< far from the others' times
     std::uint64_t reboots = 0;
-    std::uint64_t home_moves = 0;      ///< in flight
+    std::uint64_t home_moves = 0;      ///< after the take-off
     std::uint64_t position_steps = 0;  ///< horizontally
     std::uint64_t height_steps = 0;
     std::uint64_t yaw_steps = 0;

@@ -136,6 +136,10 @@ std::string estimator(const EstimatorReport& report) {
                       {"Attitudes", counters.attitudes},
                       {"Positions", counters.positions},
                       {"Reboots", counters.reboots},
+                      {"Jumps of the position", counters.position_steps},
+                      {"Jumps of the height", counters.height_steps},
+                      {"Jumps of the yaw", counters.yaw_steps},
+                      {"Jumps of home", counters.home_moves},
                       {"Tracks made", counters.tracks_created},
                       {"Tracks removed", counters.tracks_removed},
                       {"Tracks merged", counters.tracks_merged}}}};

@@ -22,6 +22,10 @@ RunCounters counters_of(const Geolocator& geolocator) {
   counters.attitudes = telemetry.attitudes;
   counters.positions = telemetry.positions;
   counters.reboots = telemetry.reboots;
+  counters.home_moves = telemetry.home_moves;
+  counters.position_steps = telemetry.position_steps;
+  counters.height_steps = telemetry.height_steps;
+  counters.yaw_steps = telemetry.yaw_steps;
   counters.tracks_created = tracks.created;
   counters.tracks_removed = tracks.removed;
   counters.tracks_merged = tracks.merged;

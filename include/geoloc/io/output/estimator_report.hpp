@@ -22,6 +22,10 @@ struct RunCounters {
   std::uint64_t attitudes = 0;
   std::uint64_t positions = 0;
   std::uint64_t reboots = 0;
+  std::uint64_t home_moves = 0;
+  std::uint64_t position_steps = 0;  ///< of the vehicle's own state
+  std::uint64_t height_steps = 0;
+  std::uint64_t yaw_steps = 0;
   std::uint64_t tracks_created = 0;
   std::uint64_t tracks_removed = 0;
   std::uint64_t tracks_merged = 0;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/state_news.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+constexpr const char* kConsequence =
+    ", which it cannot have moved: what is mapped stays where it is, and the flight goes on from there";
+
+/// Whether there is one more of a kind than before, and the first.
+bool is_first(std::uint64_t count, std::uint64_t before) {
+  return before == 0 && count > 0;
+}
+
+}  // namespace
+
+void StateNews::note(const StateProvider& state) {
+  const StateProvider::Counters now = state.counters();
+  const StateSteps steps = state.steps();
+  const Eigen::Vector4d size = steps.size - steps_.size;
+  if (is_first(now.home_moves, told_.home_moves)) {
+    const double up_m = state.home().moved_up_m();
+    lines_.push_back(fmt::format("the vehicle's home was set {:.1f} m {}: heights stay above the first one",
+                                 std::abs(up_m), up_m > 0.0 ? "higher" : "lower"));
+  }
+  if (is_first(now.position_steps, told_.position_steps))
+    lines_.push_back(
+        fmt::format("the vehicle's position jumped by {:.1f} m{}", size.head<2>().norm(), kConsequence));
+  if (is_first(now.height_steps, told_.height_steps))
+    lines_.push_back(fmt::format("the vehicle's height jumped by {:+.1f} m{}", size[2], kConsequence));
+  if (is_first(now.yaw_steps, told_.yaw_steps))
+    lines_.push_back(
+        fmt::format("the vehicle's yaw jumped by {:+.0f} deg{}", size[3] * kDegPerRad, kConsequence));
+  told_ = now;
+  steps_ = steps;
+}
+
+std::string count_of_jumps(const StateProvider::Counters& counters) {
+  std::string all;
+  const auto add = [&all](std::uint64_t count, const char* what) {
+    if (count > 0) all += fmt::format("{}{} of {}", all.empty() ? "" : ", ", count, what);
+  };
+  add(counters.position_steps, "the position");
+  add(counters.height_steps, "the height");
+  add(counters.yaw_steps, "the yaw");
+  add(counters.home_moves, "home");
+  return all.empty() ? all : "jumps noticed in the vehicle's state: " + all;
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geoloc/state/state_provider.hpp"
+
+namespace geoloc::apps {
+
+/// What a user is told of a vehicle whose state jumps: a line at the first of each kind.
+class StateNews {
+ public:
+  /// After each sample.
+  void note(const StateProvider& state);
+
+  /// What is new since the last call.
+  std::vector<std::string> take() { return std::exchange(lines_, {}); }
+
+ private:
+  StateProvider::Counters told_;  // of what a line was told, and counts since
+  StateSteps steps_;
+  std::vector<std::string> lines_;
+};
+
+/// A line that counts them; empty where there were none.
+std::string count_of_jumps(const StateProvider::Counters& counters);
+
+}  // namespace geoloc::apps
