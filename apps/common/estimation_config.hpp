@@ -13,7 +13,7 @@
 namespace geoloc::apps {
 
 struct FrameConfig {
-  double max_wait_s = 1.0;  ///< for the vehicle's state around a frame
+  double max_wait_s = 4.0;  ///< for the vehicle's state around a frame
 };
 
 /// What a live run and a replay have in common.

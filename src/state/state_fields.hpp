@@ -17,7 +17,7 @@ void visit_fields(Visitor& v, StateConfig& state) {
   v.field("attitude_interpolation", state.attitude_interpolation, Any{}, "",
           "The shortest rotation (slerp), or each angle by itself (circular) as in the paper's eq. 5");
   v.field("max_gap_s", state.max_gap_s, Range::above(0, 60), "s",
-          "A longer hole in the telemetry gives no state");
+          "A longer hole in the telemetry gives no state, but for 0.2 s about each sample");
   v.field("max_extrapolation_s", state.max_extrapolation_s, Range::closed(0, 0.1), "s",
           "How far beyond the newest sample a state is given");
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/state/state_provider.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
@@ -13,6 +14,13 @@ namespace {
 
 /// One tangent plane serves this far: the turn of north is followed, and lengths are true to 5e-4.
 constexpr double kFrameReach_m = 200e3;
+
+/// What a vehicle does between two samples: RMS of what straight lines between decimated samples of the
+/// flights in data/flights are off by, 1 to 5 Hz.
+constexpr double kAcceleration_mps2 = 1.0;
+constexpr double kAngularAcceleration_radps2 = 8.0 * kRadPerDeg;
+/// A vehicle that is turning may have begun or will end within this.
+constexpr double kTurnChange_s = 0.5;
 
 StateSteps sum(const StateSteps& a, const StateSteps& b) {
   return {a.segment + b.segment, a.size + b.size, a.variance + b.variance};
@@ -160,9 +168,15 @@ Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
        interpolate_attitude(angles_before, angles_after, attitude.alpha, config_.attitude_interpolation))
           .normalized();
   state.enu_from_body.translation = here.position_in_enu - stepped.head<3>();
-  state.velocity_in_enu =
-      (place_after.position_in_enu - place_before.position_in_enu) / seconds(position.spacing);
-  state.angular_velocity_in_body = angular_velocity_in_body(angles_before, angles_after, attitude.spacing);
+  if (position.spacing > Duration::zero())
+    state.velocity_in_enu =
+        (place_after.position_in_enu - place_before.position_in_enu) / seconds(position.spacing);
+  if (attitude.spacing > Duration::zero())
+    state.angular_velocity_in_body = angular_velocity_in_body(angles_before, angles_after, attitude.spacing);
+  state.sigma_position_m = position.sigma(kAcceleration_mps2);
+  state.sigma_turn_rad = attitude.sigma(kAngularAcceleration_radps2 +
+                                        state.angular_velocity_in_body.norm() / kTurnChange_s);
+  state.telemetry_gap = std::max(position.spacing, attitude.spacing);
   state.sigma_horizontal_m = sigma_horizontal_m_;
   return state;
 }

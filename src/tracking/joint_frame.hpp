@@ -18,6 +18,7 @@ namespace geoloc {
 struct NoiseRepetition {
   double of_position = 1.0;
   double of_attitude = 1.0;
+  double of_interpolation = 1.0;
 };
 
 /// Tells how long the noise of one frame lasts, in frames of the present rate.
@@ -28,21 +29,22 @@ class NoiseClock {
         attitude_time_constant_s_(attitude_time_constant_s) {}
 
   /// Frames in order of their time; where one is no later than the one before, the rate stands.
-  NoiseRepetition tick(VehicleTime now) {
+  /// telemetry_gap: between the samples that the frame's state was interpolated from.
+  NoiseRepetition tick(VehicleTime now, Duration telemetry_gap = Duration::zero()) {
     const double pause_s = last_ ? seconds(now - *last_) : 0.0;
-    if (pause_s > 0.0) {
-      repetition_ = {std::max(1.0, 2.0 * position_time_constant_s_ / pause_s),
-                     std::max(1.0, 2.0 * attitude_time_constant_s_ / pause_s)};
-    }
+    if (pause_s > 0.0) pause_s_ = pause_s;
     last_ = now;
-    return repetition_;
+    return {frames_in(2.0 * position_time_constant_s_), frames_in(2.0 * attitude_time_constant_s_),
+            frames_in(seconds(telemetry_gap))};
   }
 
  private:
   double position_time_constant_s_;
   double attitude_time_constant_s_;
+  double frames_in(double time_s) const { return pause_s_ ? std::max(1.0, time_s / *pause_s_) : 1.0; }
+
   std::optional<VehicleTime> last_;
-  NoiseRepetition repetition_;
+  std::optional<double> pause_s_;  // between the last frames
 };
 
 /// The present frame as the joint method sees it.

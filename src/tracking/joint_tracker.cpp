@@ -155,7 +155,7 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
           located.view,
           span,
           drift.at(span),
-          noise_clock_.tick(vehicle.time),
+          noise_clock_.tick(vehicle.time, vehicle.telemetry_gap),
           ground_height_m,
           clutter_rate_.per_frame()};
 }

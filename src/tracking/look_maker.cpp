@@ -21,6 +21,7 @@ struct Noise {
   Eigen::Matrix2d time;
   Eigen::Matrix2d attitude;
   Eigen::Matrix2d position;
+  Eigen::Matrix2d interpolation;  // of the vehicle's state between two samples
 };
 
 /// A detector that fires twice on one object: the more confident box came first.
@@ -39,13 +40,15 @@ Eigen::Matrix2d mean_frame_noise(const std::vector<Look>& looks) {
 }
 
 Noise noise_of(const FixJacobians& jacobians, const JointTrackerConfig& config,
-               const SharedErrorEstimate& errors) {
+               const SharedErrorEstimate& errors, const VehicleState& vehicle) {
   const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
   const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
   const double position_variance = errors.noise.position_factor() * fast_position_variance_m2(config, errors);
   return {std::pow(config.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose(),
           errors.noise.attitude_variance_rad2() * turn * turn.transpose(),
-          position_variance * Eigen::Matrix2d::Identity()};
+          position_variance * Eigen::Matrix2d::Identity(),
+          std::pow(vehicle.sigma_turn_rad, 2) * turn * turn.transpose() +
+              std::pow(vehicle.sigma_position_m, 2) * Eigen::Matrix2d::Identity()};
 }
 
 /// The calibration that the fix already holds: all but the offset.
@@ -104,13 +107,13 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   const double height_m =
       frame.view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const FixJacobians jacobians = jacobians_of(fix, frame.view, height_m);
-  const Noise noise = noise_of(jacobians, config_, errors);
+  const Noise noise = noise_of(jacobians, config_, errors, frame.view.vehicle);
 
   Look look;
   look.detection = located.detection;
   look.pixel_noise =
       errors.noise.pixel_factor() * fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
-  look.frame_noise = noise.attitude + noise.position;
+  look.frame_noise = noise.attitude + noise.position + noise.interpolation;
   look.observation.value =
       fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
   look.observation.slope = -jacobians.height;
@@ -119,7 +122,8 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   look.observation.span = frame.span;
   look.observation.information =
       (look.pixel_noise + noise.time + frame.repetition.of_attitude * looks_that_share * noise.attitude +
-       frame.repetition.of_position * noise.position)
+       frame.repetition.of_position * noise.position +
+       frame.repetition.of_interpolation * looks_that_share * noise.interpolation)
           .inverse();
   look.position =
       look.observation.value + jacobians.calibration * errors.calibration.mean + jacobians.node * frame.drift;

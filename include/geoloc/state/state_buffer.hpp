@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,8 +19,15 @@ template <typename T>
 struct Bracket {
   T before;
   T after;
-  Duration spacing;  ///< after's time minus before's
+  Duration spacing;  ///< after's time minus before's; zero where there is but the one, of exactly that time
   double alpha;      ///< paper, eq. 4; outside [0, 1] only within the permitted extrapolation
+
+  /// 1-sigma of what was interpolated, where the quantity is known at the samples and changes its rate by an
+  /// unknown `acceleration` [1/s^2] in between; zero at the samples.
+  double sigma(double acceleration) const {
+    const double spacing_s = seconds(spacing);
+    return 0.5 * acceleration * std::abs(alpha * (1.0 - alpha)) * spacing_s * spacing_s;
+  }
 
   T interpolated() const { return Interpolator<T>::between(before, after, alpha); }
 };
@@ -40,9 +49,13 @@ class StateBuffer {
   /// False where the sample was refused.
   bool insert(VehicleTime time, const T& value);
 
-  /// The samples around `time`, if they are at most max_gap apart. A time beyond the newest sample by at most
-  /// max_extrapolation is answered from the last two.
+  /// The samples around `time`, if they are at most max_gap apart or one of them is near (kNear); a sample of
+  /// exactly that time needs no other. A time beyond the newest sample by at most max_extrapolation is
+  /// answered from the last two.
   Expected<Bracket<T>, NoState> bracket(VehicleTime time, Duration max_gap, Duration max_extrapolation) const;
+
+  /// What is to be known so soon before or after a sample is known well enough, far as the next one may be.
+  static constexpr Duration kNear = std::chrono::milliseconds{200};
 
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
@@ -107,22 +120,24 @@ Expected<Bracket<T>, NoState> StateBuffer<T, N>::bracket(VehicleTime time, Durat
   if (size_ == 0) return NoState::kNoSamples;
   const std::size_t place = first_not_before(time);
   if (place < size_ && sample(place).time == time) {
-    const T& exact = sample(place).value;
-    const std::size_t neighbour = place + 1 < size_ ? place + 1 : place;
-    const Duration spacing = sample(neighbour).time - sample(place).time;
-    if (spacing > Duration::zero() && spacing <= max_gap) {
-      return Bracket<T>{exact, sample(neighbour).value, spacing, 0.0};
-    }
+    if (size_ == 1) return Bracket<T>{sample(0).value, sample(0).value, Duration::zero(), 0.0};
+    const bool is_newest = place + 1 == size_;
+    const bool is_next_far = !is_newest && sample(place + 1).time - time > max_gap;
+    const bool is_last_nearer = place > 0 && time - sample(place - 1).time <= max_gap;
+    const std::size_t first = is_newest || (is_next_far && is_last_nearer) ? place - 1 : place;
+    return Bracket<T>{sample(first).value, sample(first + 1).value,
+                      sample(first + 1).time - sample(first).time, first == place ? 0.0 : 1.0};
   }
-  if (place == 0) {
-    return size_ > 1 || time < sample(0).time ? NoState::kTooOld : NoState::kNotYet;
-  }
+  if (place == 0) return time < sample(0).time ? NoState::kTooOld : NoState::kNotYet;
   if (place == size_ && (size_ < 2 || time - sample(size_ - 1).time > max_extrapolation))
     return NoState::kNotYet;
   const Sample& after = sample(place < size_ ? place : size_ - 1);
   const Sample& before = sample(place < size_ ? place - 1 : size_ - 2);
   const Duration spacing = after.time - before.time;
-  if (spacing > max_gap) return place < size_ ? NoState::kInAGap : NoState::kNotYet;
+  if (spacing > max_gap) {
+    if (place == size_) return NoState::kNotYet;
+    if (time - before.time > kNear && after.time - time > kNear) return NoState::kInAGap;
+  }
   return Bracket<T>{before.value, after.value, spacing, seconds(time - before.time) / seconds(spacing)};
 }
 

@@ -19,7 +19,7 @@ enum class AttitudeInterpolation {
 
 struct StateConfig {
   AttitudeInterpolation attitude_interpolation = AttitudeInterpolation::kSlerp;
-  double max_gap_s = 0.6;              ///< a longer hole in the telemetry gives no state
+  double max_gap_s = 3.0;              ///< a longer hole in the telemetry gives no state
   double max_extrapolation_s = 0.005;  ///< beyond the newest sample; more is guessing
 
   std::vector<std::string> problems() const;
@@ -41,7 +41,10 @@ struct VehicleState {
   Eigen::Vector3d angular_velocity_in_body =
       Eigen::Vector3d::Zero();               ///< [rad/s], of the interpolation's segment
   std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
-  StateSteps steps;  ///< up to now; they are taken out of the pose, which goes on as before them
+  double sigma_position_m = 0.0;             ///< that interpolation adds, per horizontal axis
+  double sigma_turn_rad = 0.0;               ///< the same, about each axis
+  Duration telemetry_gap{};  ///< between the samples around: what interpolation is off by lasts so long
+  StateSteps steps;          ///< up to now; they are taken out of the pose, which goes on as before them
 };
 
 /// Why there is no state at a time.
