@@ -213,6 +213,114 @@ TEST(StateProvider, CountsWhatIsOlderThanAllThatIsKeptOfEitherQuantity) {
   EXPECT_EQ(provider.counters().stale, 3U);
 }
 
+/// North at 5 m/s and 20 m up; from then on the vehicle takes itself to be elsewhere.
+struct Jump {
+  double north_m = 0.0, up_m = 0.0, yaw_rad = 0.0;
+};
+
+void fly(StateProvider& provider, const Jump& jump, double jump_s, double until_s) {
+  for (int i = 0; 0.1 * i <= until_s; ++i) {
+    const double time_s = 0.1 * i;
+    const Jump by = time_s >= jump_s ? jump : Jump{};
+    provider.add(position(time_s, 5.0 * time_s + by.north_m, 20.0 + by.up_m));
+    provider.add(AttitudeSample{at_s(time_s), {0.0, 0.0, wrap_to_pi(3.0 + by.yaw_rad)}});
+  }
+}
+
+double yaw_of(const VehicleState& state) {
+  return euler_angles(enu_from_ned() * state.enu_from_body.rotation).yaw_rad;
+}
+
+TEST(StateProvider, GoesOnAsBeforeWhereTheVehiclesOwnStateJumps) {
+  for (const Jump& jump : {Jump{50.0, 0.0, 0.0}, Jump{-3.0, 0.0, 0.0}, Jump{0.0, 10.0, 0.0},
+                           Jump{0.0, 0.0, 20.0 * kRadPerDeg}, Jump{8.0, -4.0, -0.5}}) {
+    StateProvider provider(StateConfig{});
+    fly(provider, jump, 3.95, 6.0);
+    for (const double time_s : {3.85, 4.0, 4.05, 5.75}) {
+      const auto state = provider.at(at_s(time_s));
+      ASSERT_TRUE(state) << time_s;
+      EXPECT_NEAR(state->enu_from_body.translation.y(), 5.0 * time_s, 0.03);
+      EXPECT_NEAR(state->enu_from_body.translation.z(), 20.0, 1e-6);
+      EXPECT_NEAR(wrap_to_pi(yaw_of(*state) - 3.0), 0.0, 1e-6);
+      EXPECT_NEAR(state->velocity_in_enu.y(), 5.0, 0.01);
+      EXPECT_EQ(state->steps.segment > 0, time_s >= 4.0);
+    }
+    EXPECT_EQ(provider.at(at_s(3.95)).error(), NoState::kInAGap);
+    const StateSteps steps = provider.steps();
+    EXPECT_LT((steps.size - Eigen::Vector4d(0.0, jump.north_m, jump.up_m, jump.yaw_rad)).norm(), 0.03);
+    EXPECT_EQ(provider.counters().position_steps, jump.north_m != 0.0 ? 1U : 0U);
+    EXPECT_EQ(provider.counters().height_steps, jump.up_m != 0.0 ? 1U : 0U);
+    EXPECT_EQ(provider.counters().yaw_steps, jump.yaw_rad != 0.0 ? 1U : 0U);
+  }
+}
+
+TEST(StateProvider, WaitsForTheSampleAfterAJumpInsteadOfExtrapolatingIt) {
+  StateProvider provider(StateConfig{});
+  fly(provider, {50.0, 0.0, 0.0}, 3.95, 4.0);
+  EXPECT_EQ(provider.at(at_s(4.004)).error(), NoState::kNotYet);
+}
+
+TEST(StateProvider, GoesOnFromTheStateThatItIsAnchoredIn) {
+  StateProvider provider(StateConfig{});
+  fly(provider, {50.0, 0.0, 0.0}, 3.95, 6.0);
+  provider.anchor(at_s(5.0));
+  EXPECT_NEAR(provider.at(at_s(5.5))->enu_from_body.translation.y(), 5.0 * 5.5 + 50.0, 0.03);
+  EXPECT_NEAR(provider.at(at_s(3.5))->enu_from_body.translation.y(), 5.0 * 3.5 + 50.0, 0.03);
+}
+
+TEST(StateProvider, TakesLateSamplesInBesideAJumpButNotInIt) {
+  StateProvider provider(StateConfig{});
+  fly(provider, {50.0, 0.0, 0.0}, 3.95, 6.0);
+  provider.add(position(3.85, 5.0 * 3.85 + 0.02, 20.0));
+  provider.add(position(3.96, 5.0 * 3.96 + 50.0, 20.0));
+  provider.add(position(4.55, 5.0 * 4.55 + 50.02, 20.0));
+  EXPECT_EQ(provider.counters().stale, 1U);
+  EXPECT_NEAR(provider.at(at_s(3.85))->enu_from_body.translation.y(), 5.0 * 3.85 + 0.02, 0.005);
+  EXPECT_NEAR(provider.at(at_s(4.55))->enu_from_body.translation.y(), 5.0 * 4.55 + 0.02, 0.03);
+}
+
+TEST(StateProvider, KeepsHeightsAboveTheFirstHome) {
+  StateProvider provider(StateConfig{});
+  for (int i = 0; i < 60; ++i) {
+    PositionSample sample = position(0.1 * i, 0, i < 30 ? 20.0 : 23.0);
+    sample.height_msl_m = 30.0;
+    provider.add(sample);
+    provider.add(AttitudeSample{at_s(0.1 * i), {}});
+  }
+  for (const double time_s : {2.5, 2.95, 4.0})
+    EXPECT_NEAR(provider.at(at_s(time_s))->enu_from_body.translation.z(), 20.0, 1e-9);
+  EXPECT_EQ(provider.counters().home_moves, 1U);
+  EXPECT_EQ(provider.counters().height_steps, 0U);
+  EXPECT_NEAR(provider.home().moved_up_m(), -3.0, 1e-9);
+}
+
+TEST(StateProvider, SaysHowFarInterpolationCanBeTrusted) {
+  for (const double rate_hz : {1.0, 2.0, 10.0}) {
+    StateProvider provider(StateConfig{});
+    for (int i = 0; i < 20; ++i) {
+      provider.add(position(i / rate_hz, 0, 20));
+      provider.add(AttitudeSample{at_s(i / rate_hz), {}});
+    }
+    const auto halfway = provider.at(at_s(10.5 / rate_hz)), at_sample = provider.at(at_s(10.0 / rate_hz));
+    ASSERT_TRUE(halfway && at_sample);
+    EXPECT_NEAR(halfway->sigma_position_m, 1.0 / 8.0 / (rate_hz * rate_hz), 1e-9);
+    EXPECT_NEAR(halfway->sigma_turn_rad, 8.0 * kRadPerDeg / 8.0 / (rate_hz * rate_hz), 1e-9);
+    EXPECT_NEAR(seconds(halfway->telemetry_gap), 1.0 / rate_hz, 1e-9);
+    EXPECT_EQ(at_sample->sigma_position_m, 0.0);
+    EXPECT_EQ(at_sample->sigma_turn_rad, 0.0);
+  }
+}
+
+TEST(StateProvider, NeedsNoNeighboursWhereBothSamplesAreOfExactlyThatTime) {
+  StateProvider provider(StateConfig{});
+  provider.add(position(7.0, 0, 20));
+  provider.add(AttitudeSample{at_s(7.0), {}});
+  const auto state = provider.at(at_s(7.0));
+  ASSERT_TRUE(state);
+  EXPECT_EQ(state->velocity_in_enu.norm(), 0.0);
+  EXPECT_EQ(state->angular_velocity_in_body.norm(), 0.0);
+}
+
 TEST(StateConfig, NamesEveryProblem) {
   StateConfig config;
   config.max_gap_s = -1;

@@ -29,7 +29,7 @@ struct StepSum {
 
 /// Notices where a quantity of N components steps: where a sample is farther from where the ones before let
 /// expect it than any vehicle accelerates, and than samples usually are. What slow telemetry or lost packets
-/// leave open is no step, and steps without end are motion.
+/// leave open is no step; what goes on at a new speed was motion, and so are steps without end.
 template <int N>
 class StepDetector {
  public:
@@ -52,6 +52,19 @@ class StepDetector {
   }
 
  private:
+  /// What is expected, and how far from it a sample is no step.
+  struct Expectation {
+    Vector value;
+    double most;
+    double by_acceleration;  // of `most`
+  };
+
+  Expectation expect(double pause_s) const;
+  bool is_motion_after_all(const Vector& size, double pause_s, double most) const;
+  void take_step(const Vector& size, const Expectation& expected);
+  void undo_step();
+  void go_on(const Vector& value, double pause_s, double distance, double most);
+
   StepLimits limits_;
   std::optional<VehicleTime> time_;
   Vector value_ = Vector::Zero();
@@ -60,7 +73,8 @@ class StepDetector {
   double usual_ = 0.0;  // distance from what was expected
   int samples_ = 0;
   int steps_in_a_row_ = 0;
-  Vector row_ = Vector::Zero();  // their sum
+  Vector row_ = Vector::Zero();        // their sum
+  Vector last_step_ = Vector::Zero();  // the last of them
   StepSum<N> steps_;
 };
 
