@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "geoloc/geometry/time.hpp"
 
 namespace geoloc {
@@ -15,7 +17,7 @@ class SolutionSchedule {
   void request() { is_requested_ = true; }
 
   /// Something has changed that the next frames will tell.
-  void request_for_some_frames() { eager_until_ = frames_ + kFramesAfterChange; }
+  void request_for_some_frames() { eager_until_ = std::max(eager_until_, frames_ + kFramesAfterChange); }
 
   bool is_due(VehicleTime now) const {
     return is_requested_ || frames_ <= eager_until_ || !has_solution_ || now < solved_at_ ||

@@ -112,6 +112,42 @@ TEST(DriftTimeline, ScalesTheWanderingOfThePositionAndNothingElse) {
   }
 }
 
+/// New nodes that differ from the ones before by the step's variance besides, however the position wanders.
+TEST(DriftTimeline, BeginsNewNodesWhereTheStateStepped) {
+  const NodeVector step_variance(0.3, 0.3, 0.0, 0.02);
+  for (const double scale : {0.1, 1.0, 3.0}) {
+    DriftTimeline drift(distinct_config()), smooth(distinct_config());
+    for (DriftTimeline* one : {&drift, &smooth}) {
+      cover(*one, 10.0);
+      one->set_position_scale(scale);
+      one->node(1).mean = ramp(1.0, 2.0);
+    }
+    const NodeSpan span =
+        drift.cover_after_step(VehicleTime{from_seconds(12.0)}, kSigmaPosition_m, step_variance);
+    smooth.cover_after_step(VehicleTime{from_seconds(12.0)}, kSigmaPosition_m, NodeVector::Zero());
+    ASSERT_EQ(drift.size(), 4);
+    EXPECT_EQ(span.first, 2U);
+    EXPECT_LE(time_of(drift, 2), 12.0);
+    EXPECT_GE(time_of(drift, 3), 12.0);
+    EXPECT_TRUE(drift.node(2).is_after_step());
+    EXPECT_FALSE(drift.node(3).is_after_step());
+    EXPECT_FALSE(smooth.node(2).is_after_step());
+    const NodeVector added = drift.information(2).cwiseInverse() - smooth.information(2).cwiseInverse();
+    EXPECT_LT((added - step_variance).norm(), 1e-12) << "scale " << scale;
+    EXPECT_TRUE(drift.node(2).mean.isApprox(drift.node(2).transition.cwiseProduct(ramp(1.0, 2.0)), 1e-12));
+    EXPECT_EQ(cover(drift, 12.1).first, 2U);
+    EXPECT_EQ(cover(drift, 11.9).first, 2U) << "a time that runs back a little goes on";
+  }
+}
+
+TEST(DriftTimeline, BeginsAsUsualWhereItsFirstTimeFollowsAStep) {
+  DriftTimeline drift{DriftConfig{}};
+  const NodeSpan span = drift.cover_after_step(VehicleTime{from_seconds(3.0)}, 0.5, NodeVector::Ones());
+  EXPECT_EQ(span.first, 0U);
+  EXPECT_EQ(drift.size(), 2);
+  EXPECT_FALSE(drift.node(0).is_after_step());
+}
+
 TEST(DriftTimeline, CoversEveryTimeByTheTwoNodesAroundIt) {
   DriftTimeline drift(config_with(5.0));
   for (const double time_s :

@@ -225,5 +225,18 @@ TEST_F(BoundedHeight, LeavesWhatWasLearntAsItIs) {
               estimate_.calibration.covariance(Index::kHeight, Index::kHeight), 1e-12);
 }
 
+TEST_F(SharedErrors, AreLessWellKnownAfterAStepUntilTheNextSolution) {
+  learn();
+  const NodeMatrix before = estimate_.drift_root * estimate_.drift_root.transpose();
+  const SharedError::CalibrationMatrix calibration = estimate_.calibration_root;
+  const NodeVector step_variance(0.3, 0.2, 0.1, 0.02);
+  estimate_.widen_drift(step_variance);
+  const NodeMatrix added = estimate_.drift_root * estimate_.drift_root.transpose() - before;
+  EXPECT_LT((added - NodeMatrix(step_variance.asDiagonal())).norm(), 1e-9);
+  EXPECT_EQ(estimate_.calibration_root, calibration);
+  estimate_.take(solution());
+  EXPECT_LT((estimate_.drift_root * estimate_.drift_root.transpose() - before).norm(), 1e-9);
+}
+
 }  // namespace
 }  // namespace geoloc

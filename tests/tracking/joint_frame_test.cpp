@@ -24,6 +24,14 @@ TEST(NoiseClock, CountsTheFramesOfTwoTimeConstants) {
   EXPECT_EQ(rare.of_attitude, 1.0);
 }
 
+TEST(NoiseClock, CountsTheFramesThatWereInterpolatedBetweenTheSameSamples) {
+  NoiseClock clock(1.0, 0.6);
+  EXPECT_EQ(clock.tick(frame_time(5.0), from_seconds(1.0)).of_interpolation, 1.0);
+  EXPECT_NEAR(clock.tick(frame_time(5.1), from_seconds(1.0)).of_interpolation, 10.0, 1e-9);
+  EXPECT_NEAR(clock.tick(frame_time(5.2), from_seconds(0.5)).of_interpolation, 5.0, 1e-9);
+  EXPECT_EQ(clock.tick(frame_time(5.3), from_seconds(0.02)).of_interpolation, 1.0);
+}
+
 TEST(NoiseClock, KeepsItsRateWhereTimeStandsStillOrRunsBack) {
   NoiseClock clock(1.0, 0.6);
   clock.tick(frame_time(5.0));

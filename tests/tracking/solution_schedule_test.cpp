@@ -33,6 +33,23 @@ SolutionSchedule settled() {
   return schedule;
 }
 
+TEST(SolutionSchedule, IsDueAfterEachOfSomeFramesOnceSomethingHasChanged) {
+  SolutionSchedule schedule = settled();
+  schedule.request_for_some_frames();
+  int due = 0;
+  VehicleTime now{from_seconds(1000.0)};
+  schedule.begin_solution(now);
+  for (int i = 0; i < 100; ++i) {
+    now += from_seconds(0.001);
+    schedule.count_frame();
+    if (!schedule.is_due(now)) continue;
+    schedule.begin_solution(now);
+    ++due;
+    EXPECT_EQ(due, i + 1);
+  }
+  EXPECT_EQ(due, 20);
+}
+
 TEST(SolutionSchedule, IsDueOnRequestOnce) {
   SolutionSchedule schedule = settled();
   EXPECT_FALSE(schedule.is_due(schedule_time(50.1)));

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/sim/live/state_jumps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "geoloc/geometry/angles.hpp"
+#include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/io/mavlink/messages.hpp"
+#include "sim/flights_for_test.hpp"
+
+namespace geoloc::sim {
+namespace {
+
+struct Told {
+  std::vector<AttitudeSample> attitudes, from_quaternions;
+  std::vector<PositionSample> positions;
+};
+
+Told hear(const Flight& flight) {
+  Told told;
+  io::FrameParser parser;
+  for (const io::TlogRecord& record : flight.telemetry.records()) {
+    parser.append(record.frame, record.size);
+    while (const auto frame = parser.next()) {
+      const io::Message message = io::decode(*frame);
+      if (const auto* attitude = std::get_if<io::AttitudeMessage>(&message))
+        (attitude->from_quaternion ? told.from_quaternions : told.attitudes).push_back(attitude->sample);
+      if (const auto* position = std::get_if<PositionSample>(&message)) told.positions.push_back(*position);
+    }
+  }
+  return told;
+}
+
+/// What is told while the jump lasts, and nothing else, differs by the jump.
+void expect_jump(const Flight& recorded, const StateJump& jump) {
+  const Told before = hear(recorded), after = hear(with_jump(recorded, jump));
+  const LocalFrame& frame = recorded.truth.frame();
+  const auto lasts_at = [&](VehicleTime time) { return time >= jump.when.begin && time < jump.when.end; };
+  ASSERT_EQ(before.positions.size(), after.positions.size());
+  for (std::size_t i = 0; i < before.positions.size(); ++i) {
+    const PositionSample &was = before.positions[i], &is = after.positions[i];
+    const double share = lasts_at(was.time) ? 1.0 : 0.0;
+    const Eigen::Vector2d moved =
+        frame.to_local(is.position).position_in_enu - frame.to_local(was.position).position_in_enu;
+    ASSERT_LT((moved - share * jump.position_in_enu.head<2>()).norm(), 0.3) << i;  // degrees are 0.5 % longer
+    ASSERT_NEAR(*is.height_msl_m - *was.height_msl_m, share * jump.position_in_enu.z(), 2e-3);
+    ASSERT_NEAR(is.height_above_home_m - was.height_above_home_m,
+                share * (jump.position_in_enu.z() - jump.home_up_m), 2e-3);
+  }
+  const auto expect_turned = [&](const std::vector<AttitudeSample>& was,
+                                 const std::vector<AttitudeSample>& is) {
+    ASSERT_EQ(was.size(), is.size());
+    for (std::size_t i = 0; i < was.size(); ++i) {
+      const double turned_rad = lasts_at(was[i].time) ? jump.yaw_deg * kRadPerDeg : 0.0;
+      ASSERT_NEAR(wrap_to_pi(is[i].angles.yaw_rad - was[i].angles.yaw_rad - turned_rad), 0.0, 1e-5) << i;
+      ASSERT_NEAR(is[i].angles.roll_rad, was[i].angles.roll_rad, 1e-5);
+      ASSERT_NEAR(is[i].angles.pitch_rad, was[i].angles.pitch_rad, 1e-5);
+    }
+  };
+  expect_turned(before.attitudes, after.attitudes);
+  expect_turned(before.from_quaternions, after.from_quaternions);
+}
+
+TEST(StateJumps, ChangeWhatIsToldForAsLongAsTheyLastAndLeaveTheTruth) {
+  const Flight recorded = load("stock_path2");
+  for (const std::string& name : state_jump_names()) {
+    SCOPED_TRACE(name);
+    const StateJump jump = state_jump(name, recorded.truth);
+    const TimeSpan survey = recorded.truth.survey();
+    EXPECT_GT(jump.when.begin, survey.begin);
+    EXPECT_LT(jump.when.begin, survey.end);
+    expect_jump(recorded, jump);
+    const VehicleTime later = jump.when.begin + from_seconds(2.0);
+    EXPECT_EQ(with_jump(recorded, jump).truth.pose(later)->translation,
+              recorded.truth.pose(later)->translation);
+  }
+}
+
+TEST(StateJumps, OfNoNameAreRefusedWithThoseThereAre) {
+  const Flight recorded = load("stock_path1");
+  try {
+    state_jump("leap", recorded.truth);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    for (const std::string& name : state_jump_names())
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace geoloc::sim
