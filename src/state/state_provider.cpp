@@ -90,6 +90,7 @@ void StateProvider::restart() {
   positions_.clear();
   home_.restart();
   watch_.restart();
+  anchor_ = steps();  // what the vehicle says of itself from now on is all there is
   boot_clock_ = BootClockMonitor{};
 }
 

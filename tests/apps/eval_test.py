@@ -117,6 +117,29 @@ class Hills(AppTest):
             self.assertLessEqual(point["mean_rmse_m"], TOLERANCE * 0.046, point["value"])
 
 
+    def test_jumps_of_the_vehicles_state(self):
+        result = run("geoloc_eval", "--flights", "none", "--seeds", 0, "--sweep", "jumps", "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        (sweep,) = json.loads((self.folder / "report.json").read_text())["sweeps"]
+        for point in sweep["points"]:
+            if point["method"] == "paper":
+                self.assertLessEqual(point["mean_rmse_m"], TOLERANCE * 0.42, point["value"])
+                continue
+            self.assertEqual((point["found"], point["extra"]), (point["targets"], 0), point["value"])
+            self.assertLessEqual(point["mean_rmse_m"], TOLERANCE * 0.049, point["value"])
+            self.assertGreaterEqual(point["mean_nees"], 0.5, point["value"])
+            self.assertLessEqual(point["mean_nees"], 3, point["value"])
+
+    def test_slow_telemetry(self):
+        result = run("geoloc_eval", "--flights", "none", "--seeds", 0, "--sweep", "telemetry", "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        (sweep,) = json.loads((self.folder / "report.json").read_text())["sweeps"]
+        rmse_m = {(point["method"], point["value"]): point["mean_rmse_m"] for point in sweep["points"]}
+        for rate_hz, limit_m in ((1, 0.065), (2, 0.05), (10, 0.048)):
+            self.assertLessEqual(rmse_m["joint", rate_hz], TOLERANCE * limit_m, rate_hz)
+            self.assertLess(rmse_m["joint", rate_hz], rmse_m["paper", rate_hz], rate_hz)
+
+
 class Sweeps(AppTest):
     """One circumstance varied: the pictures, the page and the figures agree, whatever the number of threads."""
 

@@ -268,6 +268,18 @@ TEST(StateProvider, GoesOnFromTheStateThatItIsAnchoredIn) {
   EXPECT_NEAR(provider.at(at_s(3.5))->enu_from_body.translation.y(), 5.0 * 3.5 + 50.0, 0.03);
 }
 
+TEST(StateProvider, BelievesTheVehicleAnewAfterAReboot) {
+  StateProvider provider(StateConfig{});
+  fly(provider, {50.0, 10.0, 0.4}, 3.95, 6.0);
+  provider.restart();
+  fly(provider, {}, 0.0, 2.0);
+  const auto state = provider.at(at_s(1.5));
+  ASSERT_TRUE(state);
+  EXPECT_NEAR(state->enu_from_body.translation.y(), 5.0 * 1.5, 0.03);
+  EXPECT_NEAR(state->enu_from_body.translation.z(), 20.0, 1e-6);
+  EXPECT_NEAR(wrap_to_pi(yaw_of(*state) - 3.0), 0.0, 1e-6);
+}
+
 TEST(StateProvider, TakesLateSamplesInBesideAJumpButNotInIt) {
   StateProvider provider(StateConfig{});
   fly(provider, {50.0, 0.0, 0.0}, 3.95, 6.0);
