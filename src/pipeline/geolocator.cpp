@@ -90,11 +90,13 @@ class Geolocator::Implementation {
 
  private:
   std::optional<double> range_at(VehicleTime time) const;
+  void anchor_state(VehicleTime captured_at);
   void lift(FrameView nominal_view);
   void anchor_state(VehicleTime captured_at);
   void select(const std::vector<Detection>& detections);
   void locate();
 
+  bool has_object_ = false;  // a confirmed one
   StateBuffer<double> ranges_;
   std::uint64_t reboots_ = 0;  // when ranges_ was begun
   bool has_object_ = false;    // a confirmed one

@@ -175,8 +175,8 @@ Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
   if (attitude.spacing > Duration::zero())
     state.angular_velocity_in_body = angular_velocity_in_body(angles_before, angles_after, attitude.spacing);
   state.sigma_position_m = position.sigma(kAcceleration_mps2);
-  state.sigma_turn_rad =
-      attitude.sigma(kAngularAcceleration_radps2 + state.angular_velocity_in_body.norm() / kTurnChange_s);
+  state.sigma_turn_rad = attitude.sigma(kAngularAcceleration_radps2);
+  state.sigma_bend_rad = attitude.sigma(state.angular_velocity_in_body.norm() / kTurnChange_s);
   state.telemetry_gap = std::max(position.spacing, attitude.spacing);
   state.sigma_horizontal_m = sigma_horizontal_m_;
   return state;

@@ -22,6 +22,7 @@ struct Noise {
   Eigen::Matrix2d attitude;
   Eigen::Matrix2d position;
   Eigen::Matrix2d interpolation;  // of the vehicle's state between two samples
+  Eigen::Matrix2d bend;           // of the same in a bend: not alike for the looks of a frame
 };
 
 /// A detector that fires twice on one object: the more confident box came first.
@@ -48,7 +49,8 @@ Noise noise_of(const FixJacobians& jacobians, const JointTrackerConfig& config,
           errors.noise.attitude_variance_rad2() * turn * turn.transpose(),
           position_variance * Eigen::Matrix2d::Identity(),
           std::pow(vehicle.sigma_turn_rad, 2) * turn * turn.transpose() +
-              std::pow(vehicle.sigma_position_m, 2) * Eigen::Matrix2d::Identity()};
+              std::pow(vehicle.sigma_position_m, 2) * Eigen::Matrix2d::Identity(),
+          std::pow(vehicle.sigma_bend_rad, 2) * turn * turn.transpose()};
 }
 
 /// The calibration that the fix already holds: all but the offset.
@@ -112,7 +114,8 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   Look look;
   look.detection = located.detection;
   look.pixel_noise =
-      errors.noise.pixel_factor() * fix.covariance(located.detection.sigma_px_or(config_.sigma_px));
+      errors.noise.pixel_factor() * fix.covariance(located.detection.sigma_px_or(config_.sigma_px)) +
+      noise.bend;
   look.frame_noise = noise.attitude + noise.position + noise.interpolation;
   look.observation.value =
       fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
@@ -123,7 +126,7 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   look.observation.information =
       (look.pixel_noise + noise.time + frame.repetition.of_attitude * looks_that_share * noise.attitude +
        frame.repetition.of_position * noise.position +
-       frame.repetition.of_interpolation * looks_that_share * noise.interpolation)
+       frame.repetition.of_interpolation * looks_that_share * (noise.interpolation + noise.bend))
           .inverse();
   look.position =
       look.observation.value + jacobians.calibration * errors.calibration.mean + jacobians.node * frame.drift;

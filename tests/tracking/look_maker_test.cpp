@@ -137,6 +137,22 @@ TEST_F(LooksFromAbove, KnowHowFarTheStateWasInterpolated) {
             1e-9);
 }
 
+/// A bend turns the looks about the vehicle: each may be shifted another way.
+TEST_F(LooksFromAbove, HaveWhatABendMayAddEachForItself) {
+  repetition_.of_interpolation = 7.0;
+  const std::vector<LocatedDetection> detections{located(0.0, 0.0), located(0.0, 5.0)};
+  const Look straight = make(detections).at_rest[0];
+  view_.vehicle.sigma_bend_rad = 0.1;
+  const Look bent = make(detections).at_rest[0];
+  const Eigen::Matrix2d added = std::pow(0.1 * kUp_m, 2) * Eigen::Matrix2d::Identity();
+  EXPECT_LT((bent.pixel_noise - straight.pixel_noise - added).norm(), 1e-9);
+  EXPECT_LT((bent.frame_noise - straight.frame_noise).norm(), 1e-12);
+  EXPECT_LT((bent.observation.information.inverse() - straight.observation.information.inverse() -
+             (1.0 + 2.0 * 7.0) * added)
+                .norm(),
+            1e-7);
+}
+
 /// By similar triangles: whatever the look itself shows, and however much higher the camera is than reported.
 TEST_F(LooksFromAbove, AreComparedWithPointsWhereTheRayThroughThesePassesToTheGround) {
   for (const double higher_m : {0.0, 2.0, -3.0}) {

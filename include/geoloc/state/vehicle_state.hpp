@@ -43,8 +43,9 @@ struct VehicleState {
   std::optional<double> sigma_horizontal_m;  ///< what the receiver last claimed
   double sigma_position_m = 0.0;             ///< that interpolation adds, per horizontal axis
   double sigma_turn_rad = 0.0;               ///< the same, about each axis
-  Duration telemetry_gap{};  ///< between the samples around: what interpolation is off by lasts so long
-  StateSteps steps;          ///< up to now; they are taken out of the pose, which goes on as before them
+  double sigma_bend_rad = 0.0;  ///< besides, about the axis of a turn that may begin or end in between
+  Duration telemetry_gap{};     ///< between the samples around: what interpolation is off by lasts so long
+  StateSteps steps;             ///< up to now; they are taken out of the pose, which goes on as before them
 };
 
 /// Why there is no state at a time.
