@@ -17,6 +17,7 @@ namespace geoloc::apps {
 struct PendingFrame {
   HostTime captured_at;
   std::vector<Detection> detections;
+  double time_sigma_s = 0.0;  ///< 1-sigma of captured_at; 0: not stated
 };
 
 /// Telemetry bytes and detections in, objects out: what a live run and a replay share. It reads no clock and
@@ -55,6 +56,7 @@ class Session final : private io::TelemetrySink {
   void on_position(const PositionSample& sample) override { geolocator_.add(sample); }
   void on_range(const RangeSample& sample) override { geolocator_.add(sample); }
   void on_reboot() override { geolocator_.on_vehicle_reboot(); }
+  void on_clock_step(Duration change) override;
   void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) override;
 
   Duration max_frame_wait_;

@@ -156,7 +156,9 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
           drift.at(span),
           noise_clock_.tick(vehicle.time),
           ground_height_m,
-          clutter_rate_.per_frame()};
+          clutter_rate_.per_frame(),
+          stream_start_.observe(located.stamp.captured_at_host, located.stamp.time_sigma_s,
+                                config_.sigma_time_s)};
 }
 
 void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation& explanation) {

@@ -67,6 +67,7 @@ class JointTracker final : public Tracker {
   SharedErrorEstimate errors_;
   HeightLog heights_;
   NoiseClock noise_clock_;
+  StreamStart stream_start_;
   SolutionSchedule schedule_;
   LookMaker look_maker_;
   LookMatcher look_matcher_;

@@ -50,6 +50,7 @@ class OpeningLooks {
     NodeSpan span;
     NoiseRepetition repetition;
     double looks_that_share;
+    RunTimeError run_time;
     std::size_t begin;  // of its looks,
     std::size_t end;    // and one past their last
   };

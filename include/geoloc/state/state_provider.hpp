@@ -40,6 +40,7 @@ class StateProvider {
     std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
     std::uint64_t suspect_stamps = 0;  ///< far from the others' times
     std::uint64_t reboots = 0;
+    std::uint64_t clock_steps = 0;
   };
 
   /// Throws std::invalid_argument naming every problem.
@@ -53,6 +54,10 @@ class StateProvider {
   /// Forgets all samples: for callers who know of a reboot before the stamps show it.
   void restart();
 
+  /// The vehicle's clock stepped: as much time lies between the samples so far and the next ones as nobody
+  /// knows, so that those so far are forgotten.
+  void on_clock_step();
+
   /// Set by the first position.
   const std::optional<LocalFrame>& local_frame() const { return frame_; }
 
@@ -62,6 +67,7 @@ class StateProvider {
 
  private:
   bool accept_stamp(VehicleTime stamp);
+  void forget_samples();
 
   StateConfig config_;
   std::optional<LocalFrame> frame_;
