@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/clock_message.hpp"
 #include "common/run_score.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/projection/projector.hpp"
@@ -55,14 +56,16 @@ io::RunRecord record_run(const Session& session, const std::vector<std::string>&
 }
 
 std::string summarize_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
-  const std::string unused =
-      unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
+  const std::string clock = clock_message(session.link().clock());
+  const std::string notes =
+      (clock.empty() ? clock : "\n" + clock) + unused_known_points(session.geolocator()) +
+      useless_terrain(session.geolocator());
   const std::uint64_t frames = session.frames();
   if (truth.empty()) {
     return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",
                        io::report_objects(session.geolocator(), {}).size(),
                        session.history().raw_fixes().size(), frames, session.frames_unusable()) +
-           unused;
+           notes;
   }
   const Score score = score_run(session, truth);
   return fmt::format(
@@ -71,7 +74,7 @@ std::string summarize_run(const Session& session, const std::vector<io::TrueTarg
              "vehicle state)",
              score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
              frames, session.frames_unusable()) +
-         unused;
+         notes;
 }
 
 }  // namespace geoloc::apps

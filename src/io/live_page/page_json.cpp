@@ -136,6 +136,7 @@ std::string estimator(const EstimatorReport& report) {
                       {"Attitudes", counters.attitudes},
                       {"Positions", counters.positions},
                       {"Reboots", counters.reboots},
+                      {"Clock steps", counters.clock_steps},
                       {"Tracks made", counters.tracks_created},
                       {"Tracks removed", counters.tracks_removed},
                       {"Tracks merged", counters.tracks_merged}}}};

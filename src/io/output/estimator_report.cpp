@@ -22,6 +22,7 @@ RunCounters counters_of(const Geolocator& geolocator) {
   counters.attitudes = telemetry.attitudes;
   counters.positions = telemetry.positions;
   counters.reboots = telemetry.reboots;
+  counters.clock_steps = telemetry.clock_steps;
   counters.tracks_created = tracks.created;
   counters.tracks_removed = tracks.removed;
   counters.tracks_merged = tracks.merged;

@@ -39,6 +39,7 @@ ordered_json counters_to_json(const RunCounters& counters) {
           {"attitudes", counters.attitudes},
           {"positions", counters.positions},
           {"reboots", counters.reboots},
+          {"clock_steps", counters.clock_steps},
           {"tracks_created", counters.tracks_created},
           {"tracks_removed", counters.tracks_removed},
           {"tracks_merged", counters.tracks_merged},
