@@ -23,7 +23,7 @@ struct RecordedFrame {
   /// state is known.
   std::optional<std::uint64_t> telemetry_records;
   double time_sigma_s = 0.0;  ///< 1-sigma of captured_at; 0: not stated
-  std::string time_quality;   ///< how captured_at was obtained (docs/video.md); empty: not stated
+  std::string time_quality = {};  ///< how captured_at was obtained (docs/video.md); empty: not stated
 };
 
 /// A point of truth.geojson.
