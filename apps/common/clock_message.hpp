@@ -3,11 +3,12 @@
 
 #include <string>
 
-#include "geoloc/io/mavlink/clock_mapping.hpp"
+#include "common/session.hpp"
 
 namespace geoloc::apps {
 
-/// What the vehicle's clock did against this computer's, for people; empty where nothing.
-std::string clock_message(const io::VehicleClockMap& clock);
+/// What the clocks of vehicle, camera and this computer did that they should not, for people; empty where
+/// nothing.
+std::string clock_message(const Session& session);
 
 }  // namespace geoloc::apps

@@ -56,7 +56,7 @@ io::RunRecord record_run(const Session& session, const std::vector<std::string>&
 }
 
 std::string summarize_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
-  const std::string clock = clock_message(session.link().clock());
+  const std::string clock = clock_message(session);
   const std::string notes =
       (clock.empty() ? clock : "\n" + clock) + unused_known_points(session.geolocator()) +
       useless_terrain(session.geolocator());

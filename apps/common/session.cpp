@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -41,6 +42,12 @@ bool Session::is_decided(HostTime captured_at) const {
   if (!vehicle_time) return false;
   const auto missing = geolocator_.missing_state(*vehicle_time);
   return missing != NoState::kNotYet && missing != NoState::kNoSamples;
+}
+
+HostTime Session::gives_up_at(HostTime captured_at) const {
+  const auto calibration = geolocator_.calibration();
+  const Duration early = calibration ? from_seconds(std::max(0.0, -calibration->latency_s())) : Duration{};
+  return captured_at + early + max_frame_wait_;
 }
 
 bool Session::process(const PendingFrame& frame) {

@@ -51,6 +51,10 @@ class Session final : private io::TelemetrySink {
   io::VehicleLink& link() { return link_; }
   Duration max_frame_wait() const { return max_frame_wait_; }
 
+  /// Until when a frame of that stamp is worth waiting for: so long after it was taken, where stamps are known
+  /// to be early.
+  HostTime gives_up_at(HostTime captured_at) const;
+
  private:
   void on_attitude(const AttitudeSample& sample) override { geolocator_.add(sample); }
   void on_position(const PositionSample& sample) override { geolocator_.add(sample); }

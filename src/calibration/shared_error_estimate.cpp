@@ -65,6 +65,16 @@ void SharedErrorEstimate::bound_height(double height_above_ground_m) {
   if (sigma_m > most_m) calibration_root.row(CalibrationIndex::kHeight) *= most_m / sigma_m;
 }
 
+void SharedErrorEstimate::begin_latency(const LatencyPrior& latency) {
+  constexpr int kLatency = CalibrationIndex::kLatency;
+  latency_prior = latency;
+  calibration.mean[kLatency] = latency.latency_s;
+  calibration.covariance.row(kLatency).setZero();
+  calibration.covariance.col(kLatency).setZero();
+  calibration.covariance(kLatency, kLatency) = latency.sigma_s * latency.sigma_s;
+  calibration_root = root_of(calibration);
+}
+
 void SharedErrorEstimate::take(const ArrowheadSolver::Solution& solution) {
   calibration = solution.calibration();
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)

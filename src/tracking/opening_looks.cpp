@@ -28,6 +28,12 @@ OpeningLooks::OpeningLooks() {
   sightings_.reserve(kMostSightings);
 }
 
+void OpeningLooks::restart() {
+  is_open_ = true;
+  frames_.clear();
+  sightings_.clear();
+}
+
 void OpeningLooks::begin_frame(FrameStamp stamp, const JointFrame& frame, double looks_that_share) {
   if (frames_.size() == kMostFrames) is_open_ = false;
   if (!is_open_) return;

@@ -137,6 +137,7 @@ std::string estimator(const EstimatorReport& report) {
                       {"Positions", counters.positions},
                       {"Reboots", counters.reboots},
                       {"Clock steps", counters.clock_steps},
+                      {"Latency changes", counters.latency_changes},
                       {"Tracks made", counters.tracks_created},
                       {"Tracks removed", counters.tracks_removed},
                       {"Tracks merged", counters.tracks_merged}}}};

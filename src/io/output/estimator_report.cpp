@@ -23,6 +23,7 @@ RunCounters counters_of(const Geolocator& geolocator) {
   counters.positions = telemetry.positions;
   counters.reboots = telemetry.reboots;
   counters.clock_steps = telemetry.clock_steps;
+  counters.latency_changes = tracks.latency_changes;
   counters.tracks_created = tracks.created;
   counters.tracks_removed = tracks.removed;
   counters.tracks_merged = tracks.merged;

@@ -40,6 +40,7 @@ ordered_json counters_to_json(const RunCounters& counters) {
           {"positions", counters.positions},
           {"reboots", counters.reboots},
           {"clock_steps", counters.clock_steps},
+          {"latency_changes", counters.latency_changes},
           {"tracks_created", counters.tracks_created},
           {"tracks_removed", counters.tracks_removed},
           {"tracks_merged", counters.tracks_merged},
