@@ -182,6 +182,7 @@ void JointTracker::begin_anew() {
   recent_looks_.clear();
   errors_.drift.clear();
   heights_.clear();
+  errors_.noise = NoiseEstimate(config_.sigma_attitude_deg * kRadPerDeg);
   errors_.calibration = solver_.prior(errors_.prior());
 }
 

@@ -27,6 +27,9 @@ constexpr double kMostFromKnown_px2 = 110.0;
 constexpr double kLeastGain_px2 = 1000.0;
 /// Another latency must explain the boxes so much better.
 constexpr double kFarBetter = 0.35;
+/// At a flight's start nothing is known to compare with: the present one must explain next to nothing, and the
+/// other one nearly all.
+constexpr double kHopeless_px2 = 80.0, kFarBetterAtStart = 0.25;
 /// A pair of frames does not fit where boxes lie so much farther off than usual.
 constexpr double kMisfit = 3.0;
 constexpr int kMisfitsToSearch = 4, kMostSearches = 60;
@@ -37,6 +40,15 @@ constexpr Duration kLongestDoubt = std::chrono::seconds{60};
 
 /// A flight's first pairs of frames after which a search is due.
 constexpr std::array<int, 12> kAtTheStart{12, 20, 30, 40, 50, 60, 80, 100, 120, 150, 180, 220};
+
+/// Pixels of a larger image, or of a vehicle whose attitude is noisier, count for as much less.
+double scale_of(const CalibratedViewer& viewer, const CameraIntrinsics& image) {
+  constexpr double kSigmas = 5.0;
+  const double size = image.width_px / kUsualWidth_px;
+  if (viewer.calibration_is_void) return size;
+  const double noise_px = std::sqrt(viewer.errors.noise.attitude_variance_rad2()) * image.fx_px / size;
+  return size * std::max(1.0, kSigmas * noise_px / kMostApart_px);
+}
 
 }  // namespace
 
@@ -150,7 +162,8 @@ LatencyWatch::Fit LatencyWatch::fit_of_pair(std::size_t age, double latency_s, c
   const auto view_now = scene.viewer.at(now.stamp, latency_s);
   if (!view_before || !view_now) return {};
   const CameraIntrinsics& image = projector.camera().intrinsics();
-  const double most_px = kMostApart_px * image.width_px / kUsualWidth_px;
+  const double scale = scale_of(scene.viewer, image);
+  const double most_px = kMostApart_px * scale;
   const auto measure = [&](const Eigen::Vector3d& place_in_enu, Distance& distance) {
     const auto shown = projector.reproject(place_in_enu, view_now->enu_from_camera);
     const double margin_px = 2.0 * most_px;
@@ -160,7 +173,7 @@ LatencyWatch::Fit LatencyWatch::fit_of_pair(std::size_t age, double latency_s, c
     double nearest_px2 = most_px * most_px;
     for (std::size_t k = 0; k < now.count; ++k)
       nearest_px2 = std::min(nearest_px2, (now.pixels[k] - *shown).squaredNorm());
-    distance.add(nearest_px2 * std::pow(kUsualWidth_px / image.width_px, 2));
+    distance.add(nearest_px2 / (scale * scale));
   };
   Fit fit;
   const double ground_m = projector.config().ground_height_above_home_m;
@@ -225,6 +238,12 @@ class LatencyWatch::Grid {
   std::optional<int> best_;
 };
 
+bool LatencyWatch::is_certain(const Distance& other, const Distance& present) {
+  constexpr double kBeyondDoubt = 0.25, kGainBeyondDoubt_px2 = 1200.0;
+  return other.mean_px2() < kBeyondDoubt * present.mean_px2() &&
+         gain_px2(other, present) > kGainBeyondDoubt_px2;
+}
+
 /// By how much boxes lie better, in all.
 double LatencyWatch::gain_px2(const Distance& other, const Distance& present) {
   return (present.mean_px2() - other.mean_px2()) * std::min(other.looks, present.looks);
@@ -237,7 +256,10 @@ double LatencyWatch::least_change_by_known(const Scene& scene) const {
   const auto view = scene.viewer.at(frame(0).stamp, errors.calibration.latency_s());
   if (!view) return std::numeric_limits<double>::infinity();
   const double wandering_m = errors.drift.position_scale() * errors.accuracy.wandering_sigma_m();
-  return kSigmas * wandering_m / std::max(kLeastSpeed_m_s, view->vehicle.velocity_in_enu.norm());
+  const double tilting_m = std::sqrt(errors.noise.attitude_variance_rad2()) *
+                           std::abs(view->enu_from_camera.translation.z() -
+                                    scene.viewer.projector.config().ground_height_above_home_m);
+  return kSigmas * std::hypot(wandering_m, tilting_m) / std::max(kLeastSpeed_m_s, view->vehicle.velocity_in_enu.norm());
 }
 
 /// The latency by which boxes lie best where earlier frames tell, where that is far better than at present and
@@ -247,11 +269,12 @@ std::optional<double> LatencyWatch::search(const Scene& scene) const {
   const Fit present = fit(present_s, scene);
   const double usual_px2 = misfits_ > 0 ? kGoodFit_px2 + usual_px2_ : std::numeric_limits<double>::infinity();
   const double before_px2 = present.from_before.mean_px2();
-  const bool tells_before = present.from_before.looks >= kLeastLooks && before_px2 >= kGoodFit_px2;
+  const bool tells_before = present.from_before.looks >= kLeastLooks &&
+                            before_px2 >= (is_at_start() ? kHopeless_px2 : kGoodFit_px2);
   const bool tells_known = present.from_known.looks >= kLeastKnown;
   if (!tells_before && !tells_known) return std::nullopt;
   const double least_change_by_known_s = least_change_by_known(scene);
-  Grid by_before(std::min(usual_px2, kFarBetter * before_px2));
+  Grid by_before(std::min(usual_px2, (is_at_start() ? kFarBetterAtStart : kFarBetter) * before_px2));
   Grid by_known(std::min(kMostFromKnown_px2, kFarBetter * present.from_known.mean_px2()));
   for (int number = 0; number < Grid::kSize; ++number) {
     if (std::abs(Grid::latency_s(number) - present_s) < kLeastChange_s) continue;
@@ -261,11 +284,21 @@ std::optional<double> LatencyWatch::search(const Scene& scene) const {
       by_before.set(number, other.from_before.mean_px2());
     if (std::abs(Grid::latency_s(number) - present_s) < least_change_by_known_s) continue;
     const bool contradicts = other.from_before.mean_px2() > before_px2 + kGoodFit_px2;
-    if (tells_known && other.from_known.looks >= kLeastKnown && !contradicts)
+    if (tells_known && other.from_known.looks >= kLeastKnown && !contradicts &&
+        gain_px2(other.from_known, present.from_known) > kLeastGain_px2)
       by_known.set(number, other.from_known.mean_px2());
   }
   const auto coarse_before_s = by_before.only_best_s(), coarse_known_s = by_known.only_best_s();
   if (!coarse_before_s && !coarse_known_s) return std::nullopt;
+  // While the vehicle's states of the earliest candidates are still to come, one of two witnesses must be
+  // beyond doubt, or both agree.
+  const bool is_complete = fit(Grid::latency_s(0), scene).from_before.looks >= kLeastLooks;
+  const Fit found = fit(coarse_before_s ? *coarse_before_s : *coarse_known_s, scene);
+  const bool is_beyond_doubt = coarse_before_s ? is_certain(found.from_before, present.from_before)
+                                               : is_certain(found.from_known, present.from_known);
+  const bool agree =
+      coarse_before_s && coarse_known_s && std::abs(*coarse_before_s - *coarse_known_s) < kLeastChange_s;
+  if (!is_complete && !is_at_start() && !agree && !is_beyond_doubt) return std::nullopt;
   const Distance Fit::*const judged = coarse_before_s ? &Fit::from_before : &Fit::from_known;
   double best_s = coarse_before_s ? *coarse_before_s : *coarse_known_s;
   double best_px2 = std::numeric_limits<double>::infinity();

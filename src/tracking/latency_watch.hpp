@@ -110,6 +110,7 @@ class LatencyWatch {
   void weigh_doubt(const Fit& newest);
   std::optional<double> search(const Scene& scene) const;
   static double gain_px2(const Distance& other, const Distance& present);
+  static bool is_certain(const Distance& other, const Distance& present);
   double least_change_by_known(const Scene& scene) const;
   HostTime time_of_change(double latency_before_s, double latency_s, const Scene& scene) const;
 
