@@ -57,9 +57,8 @@ io::RunRecord record_run(const Session& session, const std::vector<std::string>&
 
 std::string summarize_run(const Session& session, const std::vector<io::TrueTarget>& truth) {
   const std::string clock = clock_message(session);
-  const std::string notes =
-      (clock.empty() ? clock : "\n" + clock) + unused_known_points(session.geolocator()) +
-      useless_terrain(session.geolocator());
+  const std::string notes = (clock.empty() ? clock : "\n" + clock) +
+                            unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
   const std::uint64_t frames = session.frames();
   if (truth.empty()) {
     return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",

@@ -51,8 +51,8 @@ class Session final : private io::TelemetrySink {
   io::VehicleLink& link() { return link_; }
   Duration max_frame_wait() const { return max_frame_wait_; }
 
-  /// Until when a frame of that stamp is worth waiting for: so long after it was taken, where stamps are known
-  /// to be early.
+  /// Until when a frame of that stamp is worth waiting for: so long after it was taken, where stamps are
+  /// known to be early.
   HostTime gives_up_at(HostTime captured_at) const;
 
  private:

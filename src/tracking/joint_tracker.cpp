@@ -136,9 +136,10 @@ void JointTracker::measure_height(const LocatedFrame& located, const NodeSpan& n
 /// certainty.
 void JointTracker::watch_latency(const LocatedFrame& located, const JointFrame& frame) {
   if (!(config_.prior.sigma_latency_s > 0.0)) return;
-  const auto change = latency_watch_.observe(located.stamp, located.detections,
-                                                {located.viewer, located.projector, errors_, latency_watch_.is_at_start()},
-                                                known_places(located, frame));
+  const auto change = latency_watch_.observe(
+      located.stamp, located.detections,
+      {located.viewer, located.projector, errors_, latency_watch_.is_at_start(), located.view.terrain_m},
+      known_places(located, frame));
   if (!change) return;
   ++book_.counters.latency_changes;
   const LatencyPrior latency{change->latency_s, kSigmaOfFoundLatency_s};

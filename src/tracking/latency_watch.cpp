@@ -27,8 +27,8 @@ constexpr double kMostFromKnown_px2 = 110.0;
 constexpr double kLeastGain_px2 = 1000.0;
 /// Another latency must explain the boxes so much better.
 constexpr double kFarBetter = 0.35;
-/// At a flight's start nothing is known to compare with: the present one must explain next to nothing, and the
-/// other one nearly all.
+/// At a flight's start nothing is known to compare with: the present one must explain next to nothing, and
+/// the other one nearly all.
 constexpr double kHopeless_px2 = 80.0, kFarBetterAtStart = 0.25;
 /// A pair of frames does not fit where boxes lie so much farther off than usual.
 constexpr double kMisfit = 3.0;
@@ -53,10 +53,11 @@ double scale_of(const CalibratedViewer& viewer, const CameraIntrinsics& image) {
 }  // namespace
 
 std::optional<FrameView> CalibratedViewer::at(FrameStamp stamp, double latency_s) const {
-  const auto nominal = viewer.nominal_view(stamp, latency_s);
+  auto nominal = viewer.nominal_view(stamp, latency_s);
   if (!nominal) return std::nullopt;
+  nominal->terrain_m = terrain_m;
   const double reported_m =
-      nominal->enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
+      nominal->enu_from_camera.translation.z() - terrain_m - projector.config().ground_height_above_home_m;
   if (calibration_is_void) {
     const double lift_m = std::max(errors.height_prior.mean_m, kUsualHeight_m - reported_m);
     return calibrated(*nominal, Calibration{}, lift_m);
@@ -84,8 +85,10 @@ void LatencyWatch::forget() {
   looks_in_place_ = 0;
 }
 
-std::optional<LatencyWatch::Change> LatencyWatch::observe(FrameStamp stamp, const std::vector<LocatedDetection>& detections,
-                                            const CalibratedViewer& viewer, const KnownPlaces& known) {
+std::optional<LatencyWatch::Change> LatencyWatch::observe(FrameStamp stamp,
+                                                          const std::vector<LocatedDetection>& detections,
+                                                          const CalibratedViewer& viewer,
+                                                          const KnownPlaces& known) {
   if (detections.empty()) return std::nullopt;
   Frame& newest = frames_[next_];
   next_ = (next_ + 1) % kFrames;
@@ -259,11 +262,12 @@ double LatencyWatch::least_change_by_known(const Scene& scene) const {
   const double tilting_m = std::sqrt(errors.noise.attitude_variance_rad2()) *
                            std::abs(view->enu_from_camera.translation.z() -
                                     scene.viewer.projector.config().ground_height_above_home_m);
-  return kSigmas * std::hypot(wandering_m, tilting_m) / std::max(kLeastSpeed_m_s, view->vehicle.velocity_in_enu.norm());
+  return kSigmas * std::hypot(wandering_m, tilting_m) /
+         std::max(kLeastSpeed_m_s, view->vehicle.velocity_in_enu.norm());
 }
 
-/// The latency by which boxes lie best where earlier frames tell, where that is far better than at present and
-/// as good as usual; else by which they lie best where known objects are.
+/// The latency by which boxes lie best where earlier frames tell, where that is far better than at present
+/// and as good as usual; else by which they lie best where known objects are.
 std::optional<double> LatencyWatch::search(const Scene& scene) const {
   const double present_s = scene.viewer.errors.calibration.latency_s();
   const Fit present = fit(present_s, scene);
@@ -313,8 +317,8 @@ std::optional<double> LatencyWatch::search(const Scene& scene) const {
   return best_s;
 }
 
-/// The frame from which on the frames speak for the new latency, all together: of those that do about as well,
-/// the earliest, since the others speak for neither.
+/// The frame from which on the frames speak for the new latency, all together: of those that do about as
+/// well, the earliest, since the others speak for neither.
 HostTime LatencyWatch::time_of_change(double latency_before_s, double latency_s, const Scene& scene) const {
   double sum_px2 = 0.0, best_px2 = 0.0;
   HostTime since = frame(0).stamp.captured_at_host;

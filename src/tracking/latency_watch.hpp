@@ -20,6 +20,7 @@ struct CalibratedViewer {
   const Projector& projector;
   const SharedErrorEstimate& errors;
   bool calibration_is_void;  ///< learnt with the latency that is in question
+  double terrain_m;          ///< of the ground under the present frame's camera
 
   std::optional<FrameView> at(FrameStamp stamp, double latency_s) const;
 };
@@ -35,7 +36,8 @@ struct KnownPlaces {
 /// Finds out whether frames are stamped with another latency than they are taken to be. Nothing need be known
 /// of the ground for it: what one frame shows, the next one shows too, moved by how the vehicle turned in
 /// between; and a vehicle in wind turns differently a third of a second later. (The same is done to align a
-/// camera's clock with a gyroscope's.) Where it flies straight, objects that are known already tell. Does not allocate after construction.
+/// camera's clock with a gyroscope's.) Where it flies straight, objects that are known already tell. Does not
+/// allocate after construction.
 class LatencyWatch {
  public:
   struct Change {
@@ -45,8 +47,8 @@ class LatencyWatch {
 
   LatencyWatch();
 
-  /// A frame, and what is believed of the latency. The latency that explains the last frames far better, where
-  /// there is one: the flight began with another than expected, or a clock has stepped.
+  /// A frame, and what is believed of the latency. The latency that explains the last frames far better,
+  /// where there is one: the flight began with another than expected, or a clock has stepped.
   std::optional<Change> observe(FrameStamp stamp, const std::vector<LocatedDetection>& detections,
                                 const CalibratedViewer& viewer, const KnownPlaces& known);
 
@@ -117,9 +119,9 @@ class LatencyWatch {
   std::vector<Frame> frames_;  // a ring
   std::size_t next_ = 0;
   std::size_t size_ = 0;
-  int pairs_ = 0;             // since the start
-  double usual_px2_ = 0.0;    // of pairs that fit
-  int misfits_ = 0;           // pairs that do not fit, in a row but for one
+  int pairs_ = 0;           // since the start
+  double usual_px2_ = 0.0;  // of pairs that fit
+  int misfits_ = 0;         // pairs that do not fit, in a row but for one
   int pairs_since_misfit_ = 0;
   bool had_fit_between_ = false;
   std::optional<HostTime> doubtful_since_;

@@ -20,8 +20,8 @@ struct RunTimeError {
 /// first seconds after the stream began or began anew.
 class StreamStart {
  public:
-  /// A frame stamped `now`. stated_sigma_s: of the stamp, 0 where nothing is stated; own_sigma_s: that of each
-  /// frame by itself.
+  /// A frame stamped `now`. stated_sigma_s: of the stamp, 0 where nothing is stated; own_sigma_s: that of
+  /// each frame by itself.
   RunTimeError observe(HostTime now, double stated_sigma_s, double own_sigma_s) {
     if (newest_) take_interval(seconds(now - *newest_));
     if (!newest_) started_at_ = now;
@@ -50,8 +50,7 @@ class StreamStart {
       started_at_ = *newest_ + from_seconds(interval_s);
       return;
     }
-    if (interval_s > 0.0)
-      usual_interval_s_ += kForgetting * (std::min(interval_s, 10.0) - usual_interval_s_);
+    if (interval_s > 0.0) usual_interval_s_ += kForgetting * (std::min(interval_s, 10.0) - usual_interval_s_);
   }
 
   static constexpr double kForgetting = 0.1;

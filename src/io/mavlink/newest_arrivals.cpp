@@ -17,8 +17,7 @@ void NewestArrivals::add(Duration offset, HostTime received_at) {
   }
   messages_[count_++] = {offset, received_at};
   largest_offset_ = offset;
-  for (std::size_t i = 0; i < count_; ++i)
-    largest_offset_ = std::max(*largest_offset_, messages_[i].offset);
+  for (std::size_t i = 0; i < count_; ++i) largest_offset_ = std::max(*largest_offset_, messages_[i].offset);
 }
 
 void NewestArrivals::compare(Duration largest_offset_before, HostTime received_at) {

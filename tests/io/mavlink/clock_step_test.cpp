@@ -23,8 +23,8 @@ constexpr Duration kGood = 60ms;
 
 enum class RoundTrips { kEverySecond, kNone };
 
-/// Ten attitudes and ten positions a second over a link that may hold back what it carries, one after another.
-/// The vehicle's clock steps once.
+/// Ten attitudes and ten positions a second over a link that may hold back what it carries, one after
+/// another. The vehicle's clock steps once.
 class SteppingVehicle {
  public:
   using Hold = std::function<Duration(Duration since_start)>;
@@ -48,7 +48,8 @@ class SteppingVehicle {
       if (round_trips_ == RoundTrips::kNone || sent % 1s != 0s) continue;
       const Duration read = arrival(sent), answered = arrival(read);
       arrivals.push_back({answered, [this, &map, sent, read, answered] {
-                            map.add_round_trip(kTakeOff + sent, VehicleTime{clock(read)}, kTakeOff + answered);
+                            map.add_round_trip(kTakeOff + sent, VehicleTime{clock(read)},
+                                               kTakeOff + answered);
                           }});
     }
     std::stable_sort(arrivals.begin(), arrivals.end(),

@@ -22,7 +22,7 @@ struct RunCounters {
   std::uint64_t attitudes = 0;
   std::uint64_t positions = 0;
   std::uint64_t reboots = 0;
-  std::uint64_t clock_steps = 0;  ///< of the vehicle's clock against the host's
+  std::uint64_t clock_steps = 0;      ///< of the vehicle's clock against the host's
   std::uint64_t latency_changes = 0;  ///< frames were found to be stamped with another latency
   std::uint64_t tracks_created = 0;
   std::uint64_t tracks_removed = 0;
