@@ -20,6 +20,7 @@ class NullSink : public io::TelemetrySink {
   void on_attitude(const AttitudeSample&) override {}
   void on_position(const PositionSample&) override {}
   void on_reboot() override {}
+  void on_clock_step(Duration) override {}
   void on_frame(HostTime, const std::uint8_t*, std::size_t) override {}
 };
 

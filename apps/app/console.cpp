@@ -52,6 +52,7 @@ void Console::tell(Topic& topic, HostTime now, const std::string& message, bool 
 void Console::update(const io::LiveStatus& status) {
   tell(link_, status.at, status.link, !status.link_is_good);
   tell(video_, status.at, status.video, !status.video_is_good);
+  tell(clock_, status.at, status.clock, false);
   tell(warning_, status.at, status.warning, true);
   const std::string line = status_line(status);
   if (is_terminal_) {

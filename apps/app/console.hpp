@@ -31,6 +31,7 @@ class Console {
   bool line_is_open_ = false;
   Topic video_;
   Topic link_;
+  Topic clock_;
   Topic warning_;
 };
 

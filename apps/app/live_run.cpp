@@ -45,6 +45,7 @@ void LiveRun::receive_telemetry() {
 
 void LiveRun::take_frames() {
   for (DetectedFrame& frame : worker_.take()) {
+    const double time_sigma_s = stamp_sigma_.observe(frame.time_quality, frame.received_at);
     if (frame.captured_at <= newest_captured_ || frame.captured_at > clock_.now() + kFuture) {
       ++stats_.out_of_order;
       continue;
@@ -54,25 +55,27 @@ void LiveRun::take_frames() {
       waiting_.pop_front();
       ++stats_.overflowed;
     }
-    waiting_.push_back(std::move(frame));
+    waiting_.push_back({std::move(frame), time_sigma_s});
   }
 }
 
 void LiveRun::process_ready() {
   while (!waiting_.empty()) {
-    const DetectedFrame& frame = waiting_.front();
+    const DetectedFrame& frame = waiting_.front().detected;
     const bool waited_enough = clock_.now() - frame.received_at > session_.max_frame_wait();
     if (!session_.is_decided(frame.captured_at) && !waited_enough) return;
-    process(frame);
+    process(waiting_.front());
     waiting_.pop_front();
   }
 }
 
-void LiveRun::process(const DetectedFrame& frame) {
+void LiveRun::process(const WaitingFrame& waiting) {
+  const DetectedFrame& frame = waiting.detected;
   recorder_.write([&](io::RecordingWriter& writer) {
-    writer.add_frame({frame.captured_at, frame.detections, recorder_.telemetry_records()});
+    writer.add_frame({frame.captured_at, frame.detections, recorder_.telemetry_records(),
+                      waiting.time_sigma_s, io::to_string(frame.time_quality)});
   });
-  const PendingFrame pending{frame.captured_at, frame.detections};
+  const PendingFrame pending{frame.captured_at, frame.detections, waiting.time_sigma_s};
   const bool is_located = session_.process(pending);
   if (is_located) stats_.latency_s.add(seconds(clock_.now() - frame.captured_at));
   stats_.time_quality = frame.time_quality;

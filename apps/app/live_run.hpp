@@ -9,6 +9,7 @@
 #include "app/detection_worker.hpp"
 #include "app/recorder.hpp"
 #include "app/running_mean.hpp"
+#include "app/stamp_sigma.hpp"
 #include "app/vehicle_reports.hpp"
 #include "common/session.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
@@ -43,10 +44,15 @@ class LiveRun {
   const Stats& stats() const { return stats_; }
 
  private:
+  struct WaitingFrame {
+    DetectedFrame detected;
+    double time_sigma_s;
+  };
+
   void receive_telemetry();
   void take_frames();
   void process_ready();
-  void process(const DetectedFrame& frame);
+  void process(const WaitingFrame& frame);
 
   Session& session_;
   io::UdpSocket& socket_;
@@ -55,7 +61,8 @@ class LiveRun {
   VehicleReports& reports_;
   const io::HostClock& clock_;
   OnFrame on_frame_;
-  std::deque<DetectedFrame> waiting_;
+  std::deque<WaitingFrame> waiting_;
+  StampSigma stamp_sigma_;
   HostTime newest_captured_{};
   Stats stats_;
 };

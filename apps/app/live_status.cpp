@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/clock_message.hpp"
+
 namespace geoloc::apps {
 namespace {
 
@@ -55,6 +57,7 @@ io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& ses
   status.video_state = to_string(stream.state);
   status.video_rate_hz = stream.frames_per_second;
   status.frame_time = to_string(run.stats().time_quality);
+  status.clock = clock_message(session);
   status.warning = detection.wrong_size_message;
   status.detect_ms = detection.detect_ms.value();
   status.latency_ms = 1e3 * run.stats().latency_s.value();

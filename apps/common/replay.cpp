@@ -30,7 +30,7 @@ void take_what_was_known(TelemetryFeed& feed, const io::RecordedFrame& frame, co
     return;
   }
   while (!feed.is_empty() && feed.next_received_at() <= frame.captured_at) feed.take();
-  const HostTime give_up_at = frame.captured_at + session.max_frame_wait();
+  const HostTime give_up_at = session.gives_up_at(frame.captured_at);
   while (!feed.is_empty() && !session.is_decided(frame.captured_at) &&
          feed.next_received_at() <= give_up_at) {
     feed.take();
@@ -44,7 +44,7 @@ void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& fra
   TelemetryFeed feed(telemetry, session);
   for (const io::RecordedFrame& frame : frames) {
     take_what_was_known(feed, frame, session);
-    const PendingFrame pending{frame.captured_at, frame.detections};
+    const PendingFrame pending{frame.captured_at, frame.detections, frame.time_sigma_s};
     const bool is_located = session.process(pending);
     if (on_frame && !on_frame(pending, is_located)) return;
   }

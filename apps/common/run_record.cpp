@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/clock_message.hpp"
 #include "common/run_score.hpp"
 #include "common/state_news.hpp"
 #include "geoloc/io/output/object_report.hpp"
@@ -40,8 +41,12 @@ std::string useless_terrain(const Geolocator& geolocator) {
 
 /// What a person should know besides the figures.
 std::string remarks(const Session& session) {
-  const std::string jumps = count_of_jumps(session.geolocator().state().counters());
-  return (jumps.empty() ? "" : "\n" + jumps) + unused_known_points(session.geolocator()) +
+  std::string lines;
+  for (const std::string& news :
+       {count_of_jumps(session.geolocator().state().counters()), clock_message(session)}) {
+    if (!news.empty()) lines += "\n" + news;
+  }
+  return lines + unused_known_points(session.geolocator()) +
          useless_terrain(session.geolocator());
 }
 

@@ -1,9 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/session.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace geoloc::apps {
+
+namespace {
+
+/// 1-sigma of a frame's time where the clocks' map adds its doubt; 0 where nothing is stated and nothing in
+/// doubt.
+double time_sigma_s(const PendingFrame& frame, const io::VehicleClockMap& clock) {
+  const double doubt_s = seconds(clock.doubt());
+  return doubt_s > 0.0 ? std::hypot(frame.time_sigma_s, doubt_s) : frame.time_sigma_s;
+}
+
+}  // namespace
 
 Session::Session(const EstimationConfig& config, OnTelemetry on_telemetry)
     : max_frame_wait_(from_seconds(config.frames.max_wait_s)),
@@ -19,11 +32,22 @@ void Session::on_frame(HostTime received_at, const std::uint8_t* frame, std::siz
   if (on_telemetry_) on_telemetry_(received_at, frame, size);
 }
 
+void Session::on_clock_step(Duration) {
+  geolocator_.on_vehicle_clock_step();
+}
+
 bool Session::is_decided(HostTime captured_at) const {
+  if (link_.clock().is_before_step(captured_at)) return true;
   const auto vehicle_time = link_.clock().to_vehicle(captured_at);
   if (!vehicle_time) return false;
   const auto missing = geolocator_.missing_state(*vehicle_time);
   return missing != NoState::kNotYet && missing != NoState::kNoSamples;
+}
+
+HostTime Session::gives_up_at(HostTime captured_at) const {
+  const auto calibration = geolocator_.calibration();
+  const Duration early = calibration ? from_seconds(std::max(0.0, -calibration->latency_s())) : Duration{};
+  return captured_at + early + max_frame_wait_;
 }
 
 bool Session::process(const PendingFrame& frame) {
@@ -34,6 +58,7 @@ bool Session::process(const PendingFrame& frame) {
   }
   frame_.captured_at = *vehicle_time;
   frame_.captured_at_host = frame.captured_at;
+  frame_.time_sigma_s = time_sigma_s(frame, link_.clock());
   frame_.detections = frame.detections;
   if (!geolocator_.process(frame_)) return false;
   history_.note(geolocator_, frame.captured_at);

@@ -18,6 +18,7 @@ namespace geoloc::apps {
 struct PendingFrame {
   HostTime captured_at;
   std::vector<Detection> detections;
+  double time_sigma_s = 0.0;  ///< 1-sigma of captured_at; 0: not stated
 };
 
 /// Telemetry bytes and detections in, objects out: what a live run and a replay share. It reads no clock and
@@ -54,11 +55,16 @@ class Session final : private io::TelemetrySink {
   io::VehicleLink& link() { return link_; }
   Duration max_frame_wait() const { return max_frame_wait_; }
 
+  /// Until when a frame of that stamp is worth waiting for: so long after it was taken, where stamps are
+  /// known to be early.
+  HostTime gives_up_at(HostTime captured_at) const;
+
  private:
   void on_attitude(const AttitudeSample& sample) override { take(sample); }
   void on_position(const PositionSample& sample) override { take(sample); }
   void on_range(const RangeSample& sample) override { geolocator_.add(sample); }
   void on_reboot() override { geolocator_.on_vehicle_reboot(); }
+  void on_clock_step(Duration change) override;
   void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) override;
 
   template <typename Sample>

@@ -35,9 +35,10 @@ std::optional<CalibrationError> calibration_error(const Session& session, const 
   const Eigen::Vector3d injected_rad = wrap_to_pi(turn.angle()) * turn.axis();
   using Index = CalibrationIndex;
   CalibrationError error;
-  error.injected_latency_s = run.errors.latency_s;
+  const double latency_at_end_s = run.errors.latency_s + run.errors.clock_step_s;
+  error.injected_latency_s = latency_at_end_s;
   error.injected_boresight_deg = injected_rad.head<2>() * kDegPerRad;
-  error.latency_s = estimated->latency_s() - run.errors.latency_s;
+  error.latency_s = estimated->latency_s() - latency_at_end_s;
   error.sigma_latency_s = estimated->sigma(Index::kLatency);
   error.boresight_deg = (estimated->boresight_rad() - injected_rad).head<2>() * kDegPerRad;
   error.sigma_boresight_deg =

@@ -165,6 +165,51 @@ Sweep speed() {
   return sweep;
 }
 
+Sweep camera_clock() {
+  Sweep sweep{"clock-camera",
+              "Camera's clock",
+              "ahead from the start, s",
+              false,
+              {-2.9, -1.0, -0.3, 0.0, 0.3, 1.0, 2.9}};
+  sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
+    settings.run.errors.latency_s += value;
+  };
+  return sweep;
+}
+
+Sweep camera_clock_step() {
+  Sweep sweep{"clock-step",
+              "Camera's clock steps",
+              "ahead from mid-flight on, s",
+              false,
+              {-2.9, -1.0, -0.3, 0.0, 0.3, 1.0, 2.9}};
+  sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
+    settings.run.errors.clock_step_s = value;
+  };
+  return sweep;
+}
+
+Sweep vehicle_clock_stop() {
+  Sweep sweep{
+      "clock-stop", "Vehicle's clock stops", "pause in mid-flight, s", false, {0.0, 0.3, 0.4, 1.0, 2.9}};
+  sweep.flight_at = [](const sim::Flight& flight, double value) {
+    return sim::with_stopped_clock(flight, value);
+  };
+  return sweep;
+}
+
+Sweep late_start() {
+  Sweep sweep{"clock-late",
+              "Stream stamped by arrival at first",
+              "first stamps later, s",
+              false,
+              {0.0, 0.1, 0.2, 0.3, 0.5}};
+  sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
+    settings.run.errors.late_start_s = value;
+  };
+  return sweep;
+}
+
 }  // namespace
 
 const std::vector<Sweep>& all_sweeps() {
@@ -180,18 +225,25 @@ const std::vector<Sweep>& all_sweeps() {
                                          pairs(),
                                          misses(),
                                          clutter(),
-                                         speed()};
+                                         speed(),
+                                         camera_clock(),
+                                         camera_clock_step(),
+                                         vehicle_clock_stop(),
+                                         late_start()};
   return sweeps;
 }
 
 std::vector<Sweep> find_sweeps(const std::string& name) {
   if (name == "all") return all_sweeps();
+  std::vector<Sweep> found;
   std::string known;
   for (const Sweep& sweep : all_sweeps()) {
-    if (sweep.name == name) return {sweep};
+    const bool is_clock = sweep.name.rfind("clock-", 0) == 0;
+    if (sweep.name == name || (name == "clocks" && is_clock)) found.push_back(sweep);
     known += " " + sweep.name;
   }
-  throw std::runtime_error("--sweep " + name + ": there is none of this name; there are: all" + known);
+  if (!found.empty()) return found;
+  throw std::runtime_error("--sweep " + name + ": there is none of this name; there are: all clocks" + known);
 }
 
 }  // namespace geoloc::apps

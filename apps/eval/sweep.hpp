@@ -32,7 +32,8 @@ struct Sweep {
 /// All there are.
 const std::vector<Sweep>& all_sweeps();
 
-/// One of them, or all for "all". Throws std::runtime_error that lists them for an unknown name.
+/// One of them, all for "all", or those of the clocks for "clocks". Throws std::runtime_error that lists them
+/// for an unknown name.
 std::vector<Sweep> find_sweeps(const std::string& name);
 
 }  // namespace geoloc::apps

@@ -49,6 +49,12 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kHidden, "--latency-s", errors.latency_s, "Frame stamp minus exposure, s")->capture_default_str();
   add(kHidden, "--jitter-s", errors.latency_jitter_s, "1-sigma of the latency, per frame, s")
       ->capture_default_str();
+  add(kHidden, "--clock-step-s", errors.clock_step_s,
+      "The camera's clock is ahead by so much from the middle on, s (recordings)")
+      ->capture_default_str();
+  add(kHidden, "--late-start-s", errors.late_start_s,
+      "Stamps of the first seconds are later by so much, s (recordings)")
+      ->capture_default_str();
   CLI::Option* const sigma = add(kHidden, "--mount-sigma-deg", errors.mount_sigma_deg,
                                  "1-sigma of the mounting error, per axis, deg")
                                  ->capture_default_str();

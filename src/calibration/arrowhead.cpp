@@ -42,6 +42,10 @@ Calibration ArrowheadSolver::prior(const FlightPrior& flight) const {
   mean[CalibrationIndex::kHeight] = flight.height_m;
   sigma[CalibrationIndex::kHeight] = flight.sigma_height_m;
   sigma.segment<2>(CalibrationIndex::kOffset).setConstant(flight.sigma_offset_m);
+  if (flight.latency) {
+    mean[CalibrationIndex::kLatency] = flight.latency->latency_s;
+    sigma[CalibrationIndex::kLatency] = flight.latency->sigma_s;
+  }
   return {mean, sigma.cwiseMax(kLeastSigma).array().square().matrix().asDiagonal()};
 }
 

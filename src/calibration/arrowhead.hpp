@@ -26,11 +26,18 @@ struct HeadLayout {
   Eigen::Index size() const { return column_of_calibration() + CalibrationIndex::kSize; }
 };
 
+/// What is believed of the latency since a clock stepped.
+struct LatencyPrior {
+  double latency_s;
+  double sigma_s;
+};
+
 /// The part of the calibration's prior that depends on the flight.
 struct FlightPrior {
   double height_m;
   double sigma_height_m;
   double sigma_offset_m;  ///< 1-sigma per axis of the vehicle's constant position error
+  std::optional<LatencyPrior> latency = std::nullopt;  ///< in place of the camera's, where it is another
 };
 
 /// Least squares over everything seen so far: calibration and drift (the head) and all objects (the arrow's

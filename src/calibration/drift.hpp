@@ -75,6 +75,9 @@ class DriftTimeline {
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }
 
+  /// Forgets all nodes: the drift begins anew.
+  void clear() { begin_ = end_; }
+
   /// Forgets the oldest node: its estimate becomes the fixed start of what follows.
   void freeze_oldest();
 

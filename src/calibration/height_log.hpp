@@ -39,6 +39,13 @@ class HeightLog {
   /// The drift's oldest node is about to be frozen at its estimate.
   void freeze_oldest(const DriftTimeline& drift);
 
+  /// The flight begins anew.
+  void clear() {
+    observations_.clear();
+    constant_ = {};
+    readings_of_newest_ = 0;
+  }
+
   const std::vector<HeightObservation>& observations() const { return observations_; }
   const Constant& constant() const { return constant_; }
 

@@ -81,6 +81,21 @@ void Landmark::freeze(std::uint32_t node, const DriftTimeline& drift) {
   if (node_count_ > 0 && nodes_[0].number == node) drop_oldest(drift.node(node).mean);
 }
 
+void Landmark::freeze_latency(double latency_s) {
+  constexpr int kLatency = CalibrationIndex::kLatency;
+  b_ += B_.col(kLatency) * latency_s;
+  g_ -= C_.col(kLatency) * latency_s;
+  B_.col(kLatency).setZero();
+  C_.col(kLatency).setZero();
+  C_.row(kLatency).setZero();
+  g_[kLatency] = 0.0;
+  for (std::size_t i = 0; i < node_count_; ++i) {
+    NodeTerms& terms = nodes_[i];
+    terms.g -= terms.C_calibration.row(kLatency).transpose() * latency_s;
+    terms.C_calibration.row(kLatency).setZero();
+  }
+}
+
 void Landmark::drop_oldest(const NodeVector& value) {
   const NodeTerms& gone = nodes_[0];
   b_ += gone.B * value;

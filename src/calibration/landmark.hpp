@@ -84,6 +84,9 @@ class Landmark {
   /// Takes the node's estimate as true from now on.
   void freeze(std::uint32_t node, const DriftTimeline& drift);
 
+  /// Takes the latency of all looks so far as known: those to come are of another.
+  void freeze_latency(double latency_s);
+
   /// x = A^-1 (b + B c + sum of B d over the nodes).
   Point position(const CalibrationVector& calibration, const DriftTimeline& drift) const;
 

@@ -71,6 +71,16 @@ void SharedErrorEstimate::widen_drift(const NodeVector& step_variance) {
   drift_root = root_of(covariance);
 }
 
+void SharedErrorEstimate::begin_latency(const LatencyPrior& latency) {
+  constexpr int kLatency = CalibrationIndex::kLatency;
+  latency_prior = latency;
+  calibration.mean[kLatency] = latency.latency_s;
+  calibration.covariance.row(kLatency).setZero();
+  calibration.covariance.col(kLatency).setZero();
+  calibration.covariance(kLatency, kLatency) = latency.sigma_s * latency.sigma_s;
+  calibration_root = root_of(calibration);
+}
+
 void SharedErrorEstimate::take(const ArrowheadSolver::Solution& solution) {
   calibration = solution.calibration();
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 
 #include "calibration/arrowhead.hpp"
 #include "calibration/drift.hpp"
@@ -42,6 +43,7 @@ struct SharedErrorEstimate {
   DriftTimeline drift;
   HeightPrior height_prior;
   NoiseEstimate noise;
+  std::optional<LatencyPrior> latency_prior;  ///< since a clock stepped
   Calibration calibration;
   /// Roots of the covariances, C = R R', of calibration and newest node: they whiten Jacobians.
   SharedError::CalibrationMatrix calibration_root;
@@ -56,7 +58,8 @@ struct SharedErrorEstimate {
 
   /// For the next solution.
   FlightPrior prior() const {
-    return {height_prior.mean_m, height_prior.sigma_at(calibration.height_m()), offset_sigma_m()};
+    return {height_prior.mean_m, height_prior.sigma_at(calibration.height_m()), offset_sigma_m(),
+            latency_prior};
   }
 
   /// By how much a camera is to be lifted that reports to be so high above the level ground [m].
@@ -68,6 +71,10 @@ struct SharedErrorEstimate {
 
   /// The vehicle's state has stepped: until the next solution its drift is less well known.
   void widen_drift(const NodeVector& step_variance);
+
+  /// The latency is another from now on, `latency_s` to about `sigma_s`; what was seen so far says nothing of
+  /// it.
+  void begin_latency(const LatencyPrior& latency);
 
   /// Everything but the wandering's scale.
   void take(const ArrowheadSolver::Solution& solution);

@@ -38,6 +38,11 @@ std::unique_ptr<Tracker> make_tracker(const GeolocatorConfig& config) {
   return std::make_unique<JointTracker>(config.joint, config.known_points, config.max_detections);
 }
 
+/// What cannot be a sigma is as good as none.
+double usable_sigma(double time_sigma_s) {
+  return time_sigma_s > 0.0 && time_sigma_s <= kLargestTimeSigma_s ? time_sigma_s : 0.0;
+}
+
 bool may_be_cut(const Box& box, const CameraIntrinsics& image, double margin_px) {
   return box.x < margin_px || box.y < margin_px || box.x + box.width > image.width_px - margin_px ||
          box.y + box.height > image.height_px - margin_px;
@@ -126,7 +131,7 @@ std::optional<double> Geolocator::Implementation::range_at(VehicleTime time) con
 
 bool Geolocator::Implementation::process(const FrameDetections& frame) {
   ++counters.frames;
-  const FrameStamp stamp{frame.captured_at, frame.captured_at_host};
+  const FrameStamp stamp{frame.captured_at, frame.captured_at_host, usable_sigma(frame.time_sigma_s)};
   anchor_state(frame.captured_at);
   const auto nominal_view = viewer.nominal_view(stamp, tracker->calibration().latency_s());
   if (!nominal_view) {
@@ -217,6 +222,10 @@ void Geolocator::add(const RangeSample& sample) {
 
 void Geolocator::on_vehicle_reboot() {
   implementation_->state.restart();
+}
+
+void Geolocator::on_vehicle_clock_step() {
+  implementation_->state.on_clock_step();
 }
 
 std::optional<NoState> Geolocator::missing_state(VehicleTime captured_at) const {

@@ -86,6 +86,15 @@ bool StateProvider::accept_stamp(VehicleTime stamp) {
 
 void StateProvider::restart() {
   ++counters_.reboots;
+  forget_samples();
+}
+
+void StateProvider::on_clock_step() {
+  ++counters_.clock_steps;
+  forget_samples();
+}
+
+void StateProvider::forget_samples() {
   attitudes_.clear();
   positions_.clear();
   home_.restart();

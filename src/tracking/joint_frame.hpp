@@ -9,6 +9,7 @@
 #include "calibration/drift.hpp"
 #include "geoloc/calibration/calibration.hpp"
 #include "geoloc/geometry/time.hpp"
+#include "tracking/stream_start.hpp"
 #include "tracking/tracker.hpp"
 
 namespace geoloc {
@@ -56,6 +57,7 @@ struct JointFrame {
   NoiseRepetition repetition;
   double ground_height_m;    ///< of the level ground above home, in the lifted view, before the calibration
   double clutter_per_frame;  ///< false boxes
+  RunTimeError run_time;
 
   VehicleTime time() const { return view.vehicle.time; }
 };

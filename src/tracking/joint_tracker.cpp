@@ -34,6 +34,16 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
   return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
 }
 
+/// 1-sigma of a latency that was found by how the vehicle turned between frames.
+constexpr double kSigmaOfFoundLatency_s = 0.1;
+/// Looks follow a change of the latency by so much, as linearised.
+constexpr double kMostLinear_s = 0.5;
+/// Objects that have been known for so long, and lie within so many heights, show whether the latency holds.
+constexpr Duration kKnownFor = std::chrono::seconds{3};
+constexpr double kReachOfKnown = 1.5;
+/// A clock may have stepped so long before it shows.
+constexpr Duration kHidden = std::chrono::milliseconds{700};
+
 /// Where objects move to another slope of the ground, that is what is known of their height.
 void follow_ground(const GroundModel& ground, TrackTable& tracks) {
   if (ground.is_level()) return;
@@ -66,6 +76,7 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
       clutter_rate_(config.clutter_per_frame),
       known_points_(std::move(known_points), config.max_tracks),
       tracks_(config.max_tracks),
+      recent_looks_(max_detections),
       moving_(config_, max_detections) {
   published_.reserve((config.moving.classes.empty() ? 1 : 2) * config.max_tracks);
   known_candidates_.reserve(config.max_tracks);
@@ -103,6 +114,7 @@ void JointTracker::update(const LocatedFrame& located) {
                   detection_rate_.probability()},
                  book_);
   if (schedule_.is_due(frame.time())) refine(located, frame, noise);
+  watch_latency(located, frame);
   publish(located.projector);
 }
 
@@ -119,6 +131,81 @@ void JointTracker::measure_height(const LocatedFrame& located, const NodeSpan& n
   const bool is_first = book_.counters.ranges_used++ == 0;
   heights_.add(now, reading->value_m, reading->variance_m2);
   if (is_first && tracks_.size() == 0) errors_.calibration.mean[Index::kHeight] = reading->value_m;
+}
+
+/// Frames that are stamped with another latency than believed would put everything beside its place, with
+/// certainty.
+void JointTracker::watch_latency(const LocatedFrame& located, const JointFrame& frame) {
+  if (!(config_.prior.sigma_latency_s > 0.0)) return;
+  const auto change = latency_watch_.observe(
+      located.stamp, located.detections,
+      {located.viewer, located.projector, errors_, latency_watch_.is_at_start(), located.view.terrain_m},
+      known_places(located, frame));
+  if (!change) return;
+  ++book_.counters.latency_changes;
+  const LatencyPrior latency{change->latency_s, kSigmaOfFoundLatency_s};
+  if (latency_watch_.is_at_start()) {
+    begin_anew();
+    errors_.begin_latency(latency);
+    latency_watch_.begin_anew();
+  } else {
+    const Duration ago = located.stamp.captured_at_host - change->since + kHidden;
+    go_on_with_latency(latency, frame.time() - ago, frame);
+    latency_watch_.forget();
+  }
+  schedule_ = SolutionSchedule(config_.solve_period_s);
+}
+
+/// Of the confirmed objects near the vehicle those that have been known for longest. None at the flight's
+/// start: they were placed with the latency that is in question.
+KnownPlaces JointTracker::known_places(const LocatedFrame& located, const JointFrame& frame) const {
+  KnownPlaces known;
+  if (latency_watch_.is_at_start()) return known;
+  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), Eigen::Vector2d::Zero(),
+                         frame.ground_height_m - errors_.calibration.height_m()};
+  const auto& doubtful_since = latency_watch_.doubtful_since();
+  const Duration doubt = doubtful_since ? located.stamp.captured_at_host - *doubtful_since : Duration{};
+  const Duration least_age = kKnownFor + doubt;
+  const Eigen::Vector3d& camera = located.view.enu_from_camera.translation;
+  const double reach_m = kReachOfKnown * (camera.z() - frame.ground_height_m);
+  for (const RestingObject& track : tracks_) {
+    if (known.count == KnownPlaces::kMost) break;
+    if (!track.is_confirmed() || frame.time() - track.sums_since < least_age) continue;
+    const Eigen::Vector3d shown = shift.shown(Eigen::Vector3d(track.position_in_enu));
+    if ((shown - camera).head<2>().norm() < reach_m) known.shown_in_enu[known.count++] = shown;
+  }
+  return known;
+}
+
+/// What was seen with a wrong latency from the flight's start on is worth nothing.
+void JointTracker::begin_anew() {
+  while (tracks_.size() > 0) remove(tracks_.size() - 1);
+  opening_looks_.restart();
+  recent_looks_.clear();
+  errors_.drift.clear();
+  heights_.clear();
+  errors_.noise = NoiseEstimate(config_.sigma_attitude_deg * kRadPerDeg);
+  errors_.calibration = solver_.prior(errors_.prior());
+}
+
+/// What was known before stays known, without the looks since. What was begun since is of the new latency
+/// altogether; where that is far off, its looks were linearised too far from where they belong.
+void JointTracker::go_on_with_latency(const LatencyPrior& latency, VehicleTime since,
+                                      const JointFrame& frame) {
+  const double change_s = std::abs(latency.latency_s - errors_.calibration.latency_s());
+  for (std::size_t row = tracks_.size(); row-- > 0;) {
+    if (tracks_[row].sums_since >= since && change_s > kMostLinear_s) remove(row);
+  }
+  recent_looks_.take_out(since, errors_.drift, tracks_);
+  if (const auto before = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_))
+    errors_.take(*before);
+  for (RestingObject& track : tracks_) {
+    if (track.sums_since < since) track.landmark->freeze_latency(errors_.calibration.latency_s());
+  }
+  errors_.begin_latency(latency);
+  bound_height(frame.projector, frame.view);
+  for (RestingObject& track : tracks_) refresh(track, errors_, frame.span);
+  recent_looks_.clear();
 }
 
 /// Tracks hold what was whitened with the roots, so that these change with the solution only.
@@ -157,7 +244,9 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
           drift.at(span),
           noise_clock_.tick(vehicle.time, vehicle.telemetry_gap),
           ground_height_m,
-          clutter_rate_.per_frame()};
+          clutter_rate_.per_frame(),
+          stream_start_.observe(located.stamp.captured_at_host, located.stamp.time_sigma_s,
+                                config_.sigma_time_s)};
 }
 
 void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation& explanation) {
@@ -208,6 +297,7 @@ void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanat
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
     add_to_sums(track, looks[i], errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
+    recent_looks_.add(track.track.id, frame.time(), looks[i]);
     confirm_if_probable(track, config_.confirm_probability);
   }
 }
@@ -231,6 +321,7 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
     track.prior = track.ground;
     begin_sums(track, looks[i], errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
+    recent_looks_.add(track.track.id, frame.time(), looks[i]);
     track.look = i;
   }
 }
@@ -242,10 +333,14 @@ void JointTracker::remove_improbable() {
     retract_if_improbable(tracks_[k]);
     if (*track.existence >= config_.delete_probability) continue;
     if (!tracks_[k].was_confirmed) clutter_rate_.count_false(track.hits);
-    known_points_.forget(track.id);
-    tracks_.remove(k);
-    ++book_.counters.removed;
+    remove(k);
   }
+}
+
+void JointTracker::remove(std::size_t row) {
+  known_points_.forget(tracks_[row].track.id);
+  tracks_.remove(row);
+  ++book_.counters.removed;
 }
 
 void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise) {
@@ -302,6 +397,7 @@ void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
   merge_into(kept, gone);
   known_points_.rename(gone.track.id, kept.track.id);
   opening_looks_.rename(gone.track.id, kept.track.id);
+  recent_looks_.rename(gone.track.id, kept.track.id);
   for (RestingObject& track : tracks_) track.neighbours.rename(gone.track.id, kept.track.id);
   tracks_.remove(gone_row);
   ++book_.counters.merged;

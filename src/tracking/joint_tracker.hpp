@@ -12,10 +12,12 @@
 #include "tracking/detection_rate.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/known_point_matcher.hpp"
+#include "tracking/latency_watch.hpp"
 #include "tracking/look_maker.hpp"
 #include "tracking/look_matcher.hpp"
 #include "tracking/moving_tracker.hpp"
 #include "tracking/opening_looks.hpp"
+#include "tracking/recent_looks.hpp"
 #include "tracking/solution_schedule.hpp"
 #include "tracking/track_table.hpp"
 #include "tracking/tracker.hpp"
@@ -55,6 +57,11 @@ class JointTracker final : public Tracker {
   void begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
                        const GroundModel& ground, const JointFrame& frame);
   void remove_improbable();
+  void remove(std::size_t row);
+  void watch_latency(const LocatedFrame& located, const JointFrame& frame);
+  KnownPlaces known_places(const LocatedFrame& located, const JointFrame& frame) const;
+  void begin_anew();
+  void go_on_with_latency(const LatencyPrior& latency, VehicleTime since, const JointFrame& frame);
   void refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise);
   std::optional<Solution> solve(const LocatedFrame& located, const JointFrame& frame);
   void learn_wandering(const Solution& solution);
@@ -69,6 +76,8 @@ class JointTracker final : public Tracker {
   HeightLog heights_;
   StateSteps steps_;  // of the vehicle's state, up to the last frame
   NoiseClock noise_clock_;
+  StreamStart stream_start_;
+  LatencyWatch latency_watch_;
   SolutionSchedule schedule_;
   LookMaker look_maker_;
   LookMatcher look_matcher_;
@@ -77,6 +86,7 @@ class JointTracker final : public Tracker {
   KnownPointMatcher known_points_;
   TrackTable tracks_;
   OpeningLooks opening_looks_;
+  RecentLooks recent_looks_;
   MovingTracker moving_;
   TrackBook book_;
   std::vector<Track> published_;

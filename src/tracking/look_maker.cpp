@@ -19,6 +19,7 @@ using Index = CalibrationIndex;
 /// Covariances of what a look's position is off by, besides the detector's noise [m^2].
 struct Noise {
   Eigen::Matrix2d time;
+  Eigen::Matrix2d time_of_run;
   Eigen::Matrix2d attitude;
   Eigen::Matrix2d position;
   Eigen::Matrix2d interpolation;  // of the vehicle's state between two samples
@@ -40,12 +41,13 @@ Eigen::Matrix2d mean_frame_noise(const std::vector<Look>& looks) {
   return looks.empty() ? sum : sum / static_cast<double>(looks.size());
 }
 
-Noise noise_of(const FixJacobians& jacobians, const JointTrackerConfig& config,
+Noise noise_of(const FixJacobians& jacobians, const RunTimeError& run_time, const JointTrackerConfig& config,
                const SharedErrorEstimate& errors, const VehicleState& vehicle) {
   const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
   const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
   const double position_variance = errors.noise.position_factor() * fast_position_variance_m2(config, errors);
-  return {std::pow(config.sigma_time_s, 2) * ground_velocity * ground_velocity.transpose(),
+  const Eigen::Matrix2d per_time = ground_velocity * ground_velocity.transpose();
+  return {std::pow(config.sigma_time_s, 2) * per_time, std::pow(run_time.sigma_s, 2) * per_time,
           errors.noise.attitude_variance_rad2() * turn * turn.transpose(),
           position_variance * Eigen::Matrix2d::Identity(),
           std::pow(vehicle.sigma_turn_rad, 2) * turn * turn.transpose() +
@@ -101,7 +103,8 @@ FrameLooks& LookMaker::make(const std::vector<LocatedDetection>& detections, con
 
 /// The attitude's error is the same in all looks of a frame: N of them with N times its variance say as much
 /// of it as one does, and would be N independent witnesses without. What the position does within seconds is
-/// shared too, but for the most part known from the nodes; it counts once.
+/// shared too, but for the most part known from the nodes; it counts once. What the stamps of a run of frames
+/// are off by is shared by all looks of all of them.
 Look LookMaker::make_look(const LocatedDetection& located, double looks_that_share, const JointFrame& frame,
                           const SharedErrorEstimate& errors) const {
   const GroundFix& fix = located.fix;
@@ -109,7 +112,7 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   const double height_m =
       frame.view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const FixJacobians jacobians = jacobians_of(fix, frame.view, height_m);
-  const Noise noise = noise_of(jacobians, config_, errors, frame.view.vehicle);
+  const Noise noise = noise_of(jacobians, frame.run_time, config_, errors, frame.view.vehicle);
 
   Look look;
   look.detection = located.detection;
@@ -124,7 +127,8 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   look.observation.node_jacobian = jacobians.node;
   look.observation.span = frame.span;
   look.observation.information =
-      (look.pixel_noise + noise.time + frame.repetition.of_attitude * looks_that_share * noise.attitude +
+      (look.pixel_noise + noise.time + frame.run_time.frames * looks_that_share * noise.time_of_run +
+       frame.repetition.of_attitude * looks_that_share * noise.attitude +
        frame.repetition.of_position * noise.position +
        frame.repetition.of_interpolation * looks_that_share * (noise.interpolation + noise.bend))
           .inverse();
@@ -134,7 +138,8 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   place_at_height(look, frame.view.terrain_m);
   look.jacobian =
       errors.whitened<2>(jacobians.calibration.leftCols<SharedError::kCalibrationSize>(), jacobians.node);
-  look.jacobian.col(SharedError::kTime) = config_.sigma_time_s * jacobians.calibration.col(Index::kLatency);
+  look.jacobian.col(SharedError::kTime) =
+      std::hypot(config_.sigma_time_s, frame.run_time.sigma_s) * jacobians.calibration.col(Index::kLatency);
   const CameraIntrinsics& camera = projector.camera().intrinsics();
   const double ground_per_pixel_m2 = std::abs(fix.ground_from_pixel.determinant());
   look.one_per_image = 1.0 / (ground_per_pixel_m2 * camera.width_px * camera.height_px);

@@ -28,11 +28,17 @@ OpeningLooks::OpeningLooks() {
   sightings_.reserve(kMostSightings);
 }
 
+void OpeningLooks::restart() {
+  is_open_ = true;
+  frames_.clear();
+  sightings_.clear();
+}
+
 void OpeningLooks::begin_frame(FrameStamp stamp, const JointFrame& frame, double looks_that_share) {
   if (frames_.size() == kMostFrames) is_open_ = false;
   if (!is_open_) return;
   frames_.push_back({stamp, std::nullopt, frame.view.terrain_m, frame.time(), frame.span, frame.repetition,
-                     looks_that_share, sightings_.size(), sightings_.size()});
+                     looks_that_share, frame.run_time, sightings_.size(), sightings_.size()});
 }
 
 void OpeningLooks::add(std::uint64_t track_id, const Detection& detection) {
@@ -71,7 +77,7 @@ void OpeningLooks::linearise_anew(const Frame& frame, const FrameView& view, con
                                   const LookMaker& maker, const SharedErrorEstimate& errors,
                                   TrackTable& tracks) const {
   const JointFrame as_before{projector,        view, frame.span, errors.drift.at(frame.span),
-                             frame.repetition, 0.0,  0.0};
+                             frame.repetition, 0.0,  0.0,        frame.run_time};
   for (std::size_t i = frame.begin; i < frame.end; ++i) {
     const Sighting& sighting = sightings_[i];
     RestingObject* const object = tracks.find(sighting.track_id);

@@ -25,6 +25,9 @@ class OpeningLooks {
   /// Whether the looks of all frames so far are here.
   bool is_open() const { return is_open_; }
 
+  /// All looks so far are forgotten: the flight begins anew.
+  void restart();
+
   /// A drift node is frozen: what looks say of it is not to be solved for any more.
   void close() { is_open_ = false; }
 
@@ -50,6 +53,7 @@ class OpeningLooks {
     NodeSpan span;
     NoiseRepetition repetition;
     double looks_that_share;
+    RunTimeError run_time;
     std::size_t begin;  // of its looks,
     std::size_t end;    // and one past their last
   };

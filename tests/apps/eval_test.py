@@ -116,6 +116,16 @@ class Hills(AppTest):
             self.assertEqual((point["found"], point["extra"]), (point["targets"], 0), point["value"])
             self.assertLessEqual(point["mean_rmse_m"], TOLERANCE * 0.046, point["value"])
 
+    def test_a_camera_whose_clock_is_off_by_seconds(self):
+        result = run("geoloc_eval", "--flights", "none", "--method", "joint", "--seeds", 0, "--sweep", "clock-camera",
+                     "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        (sweep,) = json.loads((self.folder / "report.json").read_text())["sweeps"]
+        self.assertEqual([point["value"] for point in sweep["points"]], [-2.9, -1, -0.3, 0, 0.3, 1, 2.9])
+        for point in sweep["points"]:
+            self.assertEqual((point["found"], point["extra"]), (point["targets"], 0), point["value"])
+            self.assertLessEqual(point["mean_rmse_m"], TOLERANCE * 0.048, point["value"])
+
 
     def test_jumps_of_the_vehicles_state(self):
         result = run("geoloc_eval", "--flights", "none", "--seeds", 0, "--sweep", "jumps", "--report", self.folder)

@@ -251,6 +251,16 @@ TEST_F(LandmarkSums, OfAFrozenNodeSayWhatTheLooksSayAtItsEstimate) {
   }
 }
 
+TEST_F(LandmarkSums, OfAFrozenLatencySayWhatTheyDidAtThatLatencyWhateverItBecomes) {
+  Told told;
+  look_many(told, 0.0, 20.0, 15);
+  CalibrationVector calibration = drawn<CalibrationVector>();
+  const Point before = told.landmark.position(calibration, drift_);
+  told.landmark.freeze_latency(calibration[CalibrationIndex::kLatency]);
+  calibration[CalibrationIndex::kLatency] += 7.0;
+  EXPECT_LT((told.landmark.position(calibration, drift_) - before).norm(), 1e-9);
+}
+
 TEST_F(LandmarkSums, AreNotConcernedByANodeThatNoLookTouched) {
   Told told;
   look_many(told, 0.0, 4.0, 3);

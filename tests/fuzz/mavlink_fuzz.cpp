@@ -38,6 +38,7 @@ class DistrustfulSink : public io::TelemetrySink {
     require(sample.distance_m > 0.0 && std::isfinite(sample.distance_m));
   }
   void on_reboot() override {}
+  void on_clock_step(Duration) override {}
   void on_frame(HostTime, const std::uint8_t* frame, std::size_t size) override {
     require(size >= 8 && size <= 280 && (frame[0] == 0xFD || frame[0] == 0xFE));
   }

@@ -66,6 +66,25 @@ TEST(StateProvider, KnowsNothingOfBeforeAReboot) {
   }
 }
 
+TEST(StateProvider, DoesNotInterpolateAcrossAStepOfTheClock) {
+  StateProvider provider(StateConfig{});
+  const auto fly = [&](double begin_s, double height_m) {
+    for (int i = 0; i < 10; ++i) {
+      provider.add(position(begin_s + 0.1 * i, 0, height_m));
+      provider.add(AttitudeSample{at_s(begin_s + 0.1 * i), {}});
+    }
+  };
+  fly(5.0, 20);
+  provider.on_clock_step();
+  EXPECT_EQ(provider.counters().clock_steps, 1U);
+  EXPECT_EQ(provider.counters().reboots, 0U);
+  fly(5.6, 30);  // the clock stopped: the stamps of before come again
+  EXPECT_FALSE(provider.at(at_s(5.55)));
+  const auto state = provider.at(at_s(5.65));
+  ASSERT_TRUE(state);
+  EXPECT_NEAR(state->enu_from_body.translation.z(), 30.0, 1e-9);
+}
+
 TEST(StateProvider, StartsAfreshAfterAReboot) {
   StateProvider provider(StateConfig{});
   for (int i = 0; i < 50; ++i) {

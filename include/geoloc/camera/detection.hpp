@@ -38,10 +38,16 @@ inline bool is_sigma_px(double sigma_px) {
   return sigma_px >= kSmallestSigma_px && sigma_px <= kLargestSigma_px;
 }
 
+/// A frame whose time is less certain than that has none.
+inline constexpr double kLargestTimeSigma_s = 60.0;
+
 /// What a detector saw in one frame. An empty list is information too: nothing was seen.
 struct FrameDetections {
   VehicleTime captured_at;    ///< middle of the exposure, on the autopilot's clock
   HostTime captured_at_host;  ///< the same instant as UTC, kept for the record (first and last seen)
+  /// 1-sigma of captured_at, but for what is constant over the flight; 0: not stated, and the configured
+  /// constant holds.
+  double time_sigma_s = 0.0;
   std::vector<Detection> detections;
 };
 

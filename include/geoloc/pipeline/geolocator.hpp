@@ -54,6 +54,10 @@ class Geolocator {
   /// The vehicle's clock began anew. Needed only where the caller knows before three samples have shown it.
   void on_vehicle_reboot();
 
+  /// The vehicle's clock stepped against the clock that frames are stamped by: samples from before the step
+  /// cannot be told apart in time from those after it.
+  void on_vehicle_clock_step();
+
   /// Whether a frame of that time can be processed now (nullopt), or why not. On NoState::kNotYet it is worth
   /// waiting.
   std::optional<NoState> missing_state(VehicleTime captured_at) const;

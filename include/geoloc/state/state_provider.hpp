@@ -56,6 +56,7 @@ class StateProvider {
     std::uint64_t position_steps = 0;  ///< horizontally
     std::uint64_t height_steps = 0;
     std::uint64_t yaw_steps = 0;
+    std::uint64_t clock_steps = 0;
   };
 
   /// Throws std::invalid_argument naming every problem.
@@ -72,6 +73,10 @@ class StateProvider {
 
   /// Forgets all samples: for callers who know of a reboot before the stamps show it.
   void restart();
+
+  /// The vehicle's clock stepped: as much time lies between the samples so far and the next ones as nobody
+  /// knows, so that those so far are forgotten.
+  void on_clock_step();
 
   /// Set by the first position.
   const std::optional<LocalFrame>& local_frame() const { return frame_; }
@@ -94,6 +99,7 @@ class StateProvider {
 
   bool accept_stamp(VehicleTime stamp);
   Expected<Brackets, NoState> brackets(VehicleTime time) const;
+  void forget_samples();
 
   StateConfig config_;
   std::optional<LocalFrame> frame_;

@@ -75,7 +75,8 @@ struct TrackCounters {
   std::uint64_t merged = 0;
   std::uint64_t refused = 0;  ///< for want of room
   std::uint64_t ranges_used = 0;
-  std::uint64_t ranges_refused = 0;  ///< they disagree with what looks tell of the height
+  std::uint64_t ranges_refused = 0;   ///< they disagree with what looks tell of the height
+  std::uint64_t latency_changes = 0;  ///< frames were found to be stamped with another latency
 };
 
 }  // namespace geoloc

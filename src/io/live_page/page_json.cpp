@@ -140,6 +140,8 @@ std::string estimator(const EstimatorReport& report) {
                       {"Jumps of the height", counters.height_steps},
                       {"Jumps of the yaw", counters.yaw_steps},
                       {"Jumps of home", counters.home_moves},
+                      {"Clock steps", counters.clock_steps},
+                      {"Latency changes", counters.latency_changes},
                       {"Tracks made", counters.tracks_created},
                       {"Tracks removed", counters.tracks_removed},
                       {"Tracks merged", counters.tracks_merged}}}};

@@ -114,8 +114,16 @@ bool VehicleLink::accept_stamp(VehicleTime stamp, const Arrival& arrival) {
     case BootClockMonitor::Verdict::kAdvanced:
       break;
   }
+  const std::uint64_t steps_before = clock_.counts().steps;
   clock_.add_arrival(stamp, arrival.at);
+  tell_of_clock_step(steps_before, arrival);
   return true;
+}
+
+void VehicleLink::tell_of_clock_step(std::uint64_t steps_before, const Arrival& arrival) {
+  if (clock_.counts().steps == steps_before) return;
+  fast_timesyncs_ = 0;
+  arrival.sink.on_clock_step(clock_.last_step());
 }
 
 void VehicleLink::handle(const AttitudeMessage& message, const Arrival& arrival) {
@@ -165,8 +173,10 @@ void VehicleLink::handle(const Timesync& message, const Arrival& arrival) {
     ++counts_.foreign_timesyncs;
     return;
   }
+  const std::uint64_t steps_before = clock_.counts().steps;
   clock_.add_round_trip(HostTime{Duration{message.requester_ns - mark}},
                         VehicleTime{Duration{message.vehicle_ns}}, arrival.at);
+  tell_of_clock_step(steps_before, arrival);
 }
 
 void VehicleLink::handle(const CommandAck& message, const Arrival& arrival) {
@@ -200,10 +210,10 @@ void VehicleLink::send_text(HostTime now, const Send& send) {
 }
 
 void VehicleLink::send_timesync(HostTime now, const Send& send) {
-  const bool is_fast = fast_timesyncs_ < kFastTimesyncs;
+  const bool is_fast = fast_timesyncs_ < kFastTimesyncs || clock_.doubt() > Duration::zero();
   if (!is_due(last_timesync_, is_fast ? kFastTimesyncPeriod : kTimesyncPeriod, now)) return;
   last_timesync_ = now;
-  if (is_fast) ++fast_timesyncs_;
+  if (fast_timesyncs_ < kFastTimesyncs) ++fast_timesyncs_;
   const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch());
   const std::int64_t marked_ns = now_us.count() * kNanosecondsPerStamp + config_.component_id;
   send_frame(writer_.timesync_request(self(), marked_ns), send);

@@ -26,6 +26,8 @@ RunCounters counters_of(const Geolocator& geolocator) {
   counters.position_steps = telemetry.position_steps;
   counters.height_steps = telemetry.height_steps;
   counters.yaw_steps = telemetry.yaw_steps;
+  counters.clock_steps = telemetry.clock_steps;
+  counters.latency_changes = tracks.latency_changes;
   counters.tracks_created = tracks.created;
   counters.tracks_removed = tracks.removed;
   counters.tracks_merged = tracks.merged;

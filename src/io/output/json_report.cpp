@@ -43,6 +43,8 @@ ordered_json counters_to_json(const RunCounters& counters) {
           {"position_steps", counters.position_steps},
           {"height_steps", counters.height_steps},
           {"yaw_steps", counters.yaw_steps},
+          {"clock_steps", counters.clock_steps},
+          {"latency_changes", counters.latency_changes},
           {"tracks_created", counters.tracks_created},
           {"tracks_removed", counters.tracks_removed},
           {"tracks_merged", counters.tracks_merged},

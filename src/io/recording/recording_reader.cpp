@@ -71,6 +71,18 @@ Detection parse_detection(const json& value) {
   return detection;
 }
 
+double parse_time_sigma_s(const json& value) {
+  const double sigma_s = finite_number(value, "time_sigma_s");
+  if (!(sigma_s > 0.0 && sigma_s <= kLargestTimeSigma_s))
+    throw std::invalid_argument("time_sigma_s must lie in (0, 60]; leave it out where it is not known");
+  return sigma_s;
+}
+
+std::string parse_time_quality(const json& value) {
+  if (!value.is_string()) throw std::invalid_argument("time_quality must be a word");
+  return value.get<std::string>();
+}
+
 RecordedFrame parse_frame(const std::string& line) {
   const json value = json::parse(line, nullptr, false);
   if (value.is_discarded() || !value.is_object()) throw std::invalid_argument("not a JSON object");
@@ -81,6 +93,8 @@ RecordedFrame parse_frame(const std::string& line) {
   }
   RecordedFrame frame;
   frame.captured_at = HostTime{std::chrono::microseconds{time.get<std::int64_t>()}};
+  if (value.contains("time_sigma_s")) frame.time_sigma_s = parse_time_sigma_s(value["time_sigma_s"]);
+  if (value.contains("time_quality")) frame.time_quality = parse_time_quality(value["time_quality"]);
   const json& detections = member(value, "detections");
   if (!detections.is_array()) throw std::invalid_argument("detections must be a list");
   for (const json& detection : detections) frame.detections.push_back(parse_detection(detection));

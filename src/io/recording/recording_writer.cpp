@@ -39,8 +39,10 @@ std::int64_t microseconds(HostTime time) {
 nlohmann::ordered_json to_json(const RecordedFrame& frame) {
   auto detections = nlohmann::ordered_json::array();
   for (const Detection& detection : frame.detections) detections.push_back(detection_to_json(detection));
-  nlohmann::ordered_json line{{"time_us", microseconds(frame.captured_at)},
-                              {"detections", std::move(detections)}};
+  nlohmann::ordered_json line{{"time_us", microseconds(frame.captured_at)}};
+  if (frame.time_sigma_s > 0.0) line["time_sigma_s"] = frame.time_sigma_s;
+  if (!frame.time_quality.empty()) line["time_quality"] = frame.time_quality;
+  line["detections"] = std::move(detections);
   if (frame.telemetry_records) line["telemetry_records"] = *frame.telemetry_records;
   return line;
 }

@@ -11,6 +11,19 @@
 #include "geoloc/sim/random.hpp"
 
 namespace geoloc::sim {
+namespace {
+
+/// Earlier by more than a jitter: the clock was set back, and a receiver takes none until it has caught up.
+constexpr Duration kMostDisorder = std::chrono::milliseconds{50};
+
+/// What the camera's clock adds to the stamps of a moment.
+double clock_error_s(const CameraErrors& errors, const TimeSpan& span, VehicleTime exposed_at) {
+  const bool is_start = seconds(exposed_at - span.begin) < kStreamStart_s;
+  const bool is_after_step = exposed_at - span.begin > span.end - exposed_at;
+  return (is_start ? errors.late_start_s : 0.0) + (is_after_step ? errors.clock_step_s : 0.0);
+}
+
+}  // namespace
 
 std::vector<std::string> RecordingSettings::problems() const {
   Problems found;
@@ -36,9 +49,11 @@ std::vector<io::RecordedFrame> generate_frames(const Flight& flight, const Recor
         span.begin + from_seconds(static_cast<double>(number) / settings.run.frame_rate_hz);
     const auto enu_from_body = exposed_at > span.end ? std::nullopt : flight.truth.pose(exposed_at);
     if (!enu_from_body) break;
-    const Duration delay = from_seconds(errors.latency_s + errors.latency_jitter_s * timing.normal());
+    const Duration delay = from_seconds(errors.latency_s + clock_error_s(errors, span, exposed_at) +
+                                        errors.latency_jitter_s * timing.normal());
     HostTime stamp{std::chrono::round<std::chrono::microseconds>(
         (flight.host_time(exposed_at) + delay).time_since_epoch())};
+    if (!frames.empty() && stamp < frames.back().captured_at - kMostDisorder) continue;
     if (!frames.empty()) stamp = std::max(stamp, frames.back().captured_at);
     frames.push_back({stamp, detector.detect(*enu_from_body * camera.body_from_camera), std::nullopt});
   }
@@ -59,6 +74,8 @@ std::string injected_json(const Flight& flight, const RecordingSettings& setting
       {"frame_rate_hz", run.frame_rate_hz},
       {"latency_s", run.errors.latency_s},
       {"latency_jitter_s", run.errors.latency_jitter_s},
+      {"clock_step_s", run.errors.clock_step_s},
+      {"late_start_s", run.errors.late_start_s},
       {"mount_error_deg", {{"roll", error_deg.x()}, {"pitch", error_deg.y()}, {"yaw", error_deg.z()}}},
       {"distortion", camera.intrinsics.distortion},
       {"lens_is_calibrated", run.errors.lens_is_calibrated},

@@ -43,6 +43,8 @@ std::vector<std::string> RunSettings::problems() const {
   found.require(std::abs(errors.latency_s) <= 10.0, "latency must lie in [-10, 10] s");
   found.require(errors.latency_jitter_s >= 0.0 && errors.latency_jitter_s <= 10.0,
                 "jitter must lie in [0, 10] s");
+  found.require(std::abs(errors.clock_step_s) <= 10.0, "clock_step must lie in [-10, 10] s");
+  found.require(std::abs(errors.late_start_s) <= 10.0, "late_start must lie in [-10, 10] s");
   found.require(errors.mount_sigma_deg >= 0.0 && errors.mount_sigma_deg <= 45.0,
                 "mount_sigma must lie in [0, 45] deg");
   if (errors.mount_error_deg) {

@@ -191,6 +191,24 @@ Flight at_speed(const Flight& flight, double factor) {
   return {flight.name, log.build(), flight.truth.at_speed(factor), flight.booted_at};
 }
 
+Flight with_stopped_clock(const Flight& flight, double pause_s) {
+  const TimeSpan survey = flight.truth.survey();
+  const HostTime stops_at = flight.host_time(survey.begin + (survey.end - survey.begin) / 2);
+  const Duration pause = from_seconds(pause_s);
+  LogBuilder log;
+  for (const io::TlogRecord& record : flight.telemetry.records()) {
+    const auto frame = view_frame(record.frame, record.size);
+    if (!frame) continue;
+    if (record.received_at <= stops_at || pause <= Duration::zero()) {
+      log.add(record);
+    } else if (record.received_at > stops_at + pause) {
+      const Duration clock = record.received_at - flight.booted_at;
+      log.add(record.received_at, *frame, retell(*frame, {clock - pause, clock, record.received_at, 1.0}));
+    }
+  }
+  return {flight.name, log.build(), flight.truth, flight.booted_at};
+}
+
 Flight at_telemetry_rate(const Flight& flight, double rate_hz) {
   const Duration period = from_seconds(1.0 / rate_hz);
   LogBuilder log;

@@ -23,6 +23,7 @@ class CollectingSink : public TelemetrySink {
     attitudes_before_reboot.push_back(attitudes.size());
     reboots_at.push_back(frames.back().at);
   }
+  void on_clock_step(Duration change) override { clock_steps.push_back(change); }
   void on_frame(HostTime at, const std::uint8_t* frame, std::size_t size) override {
     frames.push_back({at, Bytes(frame, frame + size)});
   }
@@ -33,6 +34,7 @@ class CollectingSink : public TelemetrySink {
   std::vector<std::size_t> attitudes_before_reboot;
   std::vector<ReceivedFrame> frames;
   std::vector<HostTime> reboots_at;
+  std::vector<Duration> clock_steps;
 };
 
 }  // namespace geoloc::io::testing

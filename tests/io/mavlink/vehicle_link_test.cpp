@@ -222,6 +222,7 @@ TEST(VehicleLink, DoesNotAllocateOnceItKnowsTheVehicle) {
     void on_attitude(const AttitudeSample&) override {}
     void on_position(const PositionSample&) override {}
     void on_reboot() override {}
+    void on_clock_step(Duration) override {}
     void on_frame(HostTime, const std::uint8_t*, std::size_t) override {}
   } sink;
   FrameFactory vehicle({1, 1});

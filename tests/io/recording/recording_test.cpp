@@ -18,7 +18,11 @@ HostTime at_us(std::int64_t us) {
 }
 
 RecordedFrame some_frame(std::int64_t time_us) {
-  return {at_us(time_us), {{{1.25, 2.1, 30.7, 1.0 / 3.0}, 0.87654321, 4, 0.37}, {{5, 6, 7, 8}, 0.5, 1}}, 1};
+  return {at_us(time_us),
+          {{{1.25, 2.1, 30.7, 1.0 / 3.0}, 0.87654321, 4, 0.37}, {{5, 6, 7, 8}, 0.5, 1}},
+          1,
+          0.3,
+          "arrival"};
 }
 
 void write_recording(const std::filesystem::path& folder) {
@@ -51,6 +55,10 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   EXPECT_EQ(recording.frames[0].detections[0].class_id, 4);
   EXPECT_TRUE(recording.frames[1].detections.empty());
   EXPECT_FALSE(recording.frames[1].telemetry_records);
+  EXPECT_EQ(recording.frames[0].time_sigma_s, 0.3);
+  EXPECT_EQ(recording.frames[0].time_quality, "arrival");
+  EXPECT_EQ(recording.frames[1].time_sigma_s, 0.0);
+  EXPECT_EQ(recording.frames[1].time_quality, "");
   ASSERT_EQ(recording.telemetry.records().size(), 1U);
   EXPECT_EQ(recording.telemetry.records()[0].size, kHeartbeat.size());
   ASSERT_EQ(recording.truth.size(), 1U);

@@ -16,6 +16,7 @@ struct Counter final : io::TelemetrySink {
   void on_attitude(const AttitudeSample&) override { ++attitudes; }
   void on_position(const PositionSample&) override { ++positions; }
   void on_reboot() override {}
+  void on_clock_step(Duration) override {}
   void on_frame(HostTime, const std::uint8_t*, std::size_t) override {}
 
   int attitudes = 0;

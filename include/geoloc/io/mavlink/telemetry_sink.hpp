@@ -24,6 +24,10 @@ class TelemetrySink {
   /// The vehicle's clock was reset: times before and after it cannot be compared.
   virtual void on_reboot() = 0;
 
+  /// The vehicle's clock stepped against the host's by `change` (vehicle - host), or the link's delay did
+  /// where nothing tells the two apart: samples on both sides of it cannot be interpolated.
+  virtual void on_clock_step(Duration change) = 0;
+
   /// Every frame of the link from any sender, before the call for its content. This is what a recording
   /// keeps.
   virtual void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) = 0;

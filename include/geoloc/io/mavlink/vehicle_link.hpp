@@ -59,6 +59,7 @@ class VehicleLink {
   bool take(const Frame& frame, const Arrival& arrival);
   void choose_vehicle(const Frame& frame, const Message& message, HostTime received_at);
   bool accept_stamp(VehicleTime stamp, const Arrival& arrival);
+  void tell_of_clock_step(std::uint64_t steps_before, const Arrival& arrival);
 
   void handle(const NotDecoded&, const Arrival&) {}
   void handle(const RefusedValues&, const Arrival&) { ++counts_.refused_values; }

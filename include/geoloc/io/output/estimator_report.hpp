@@ -26,6 +26,8 @@ struct RunCounters {
   std::uint64_t position_steps = 0;  ///< of the vehicle's own state
   std::uint64_t height_steps = 0;
   std::uint64_t yaw_steps = 0;
+  std::uint64_t clock_steps = 0;      ///< of the vehicle's clock against the host's
+  std::uint64_t latency_changes = 0;  ///< frames were found to be stamped with another latency
   std::uint64_t tracks_created = 0;
   std::uint64_t tracks_removed = 0;
   std::uint64_t tracks_merged = 0;

@@ -21,6 +21,7 @@ struct LiveStatus {
   std::string video_state;  ///< one word
   double video_rate_hz = 0.0;
   std::string frame_time;   ///< where capture times come from: "recovered", "arrival"
+  std::string clock;        ///< what the clocks last did that they should not, or empty
   std::string warning;      ///< what is wrong with the frames, or empty
   double detect_ms = 0.0;   ///< of one frame, mean
   double latency_ms = 0.0;  ///< from capture to result, mean

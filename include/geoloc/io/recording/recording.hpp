@@ -22,6 +22,8 @@ struct RecordedFrame {
   /// repeats the live run exactly; without it (recordings of other tools) the replay reads ahead until the
   /// state is known.
   std::optional<std::uint64_t> telemetry_records;
+  double time_sigma_s = 0.0;      ///< 1-sigma of captured_at; 0: not stated
+  std::string time_quality = {};  ///< how captured_at was obtained (docs/video.md); empty: not stated
 };
 
 /// A point of truth.geojson.

@@ -32,4 +32,8 @@ Flight at_speed(const Flight& flight, double factor);
 /// moment plus the recorded error, interpolated between messages. rate_hz must be > 0.
 Flight at_telemetry_rate(const Flight& flight, double rate_hz);
 
+/// The vehicle's clock stops in the middle of the survey for so long [s], in which nothing is sent; all
+/// stamps after it are as much behind. Truth and cameras go on.
+Flight with_stopped_clock(const Flight& flight, double pause_s);
+
 }  // namespace geoloc::sim

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/recent_looks.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace geoloc {
+namespace {
+
+/// Of as many looks as a frame may have; fewer last for longer.
+constexpr std::size_t kFrames = 16;
+constexpr std::size_t kLeastEntries = 1000;
+
+}  // namespace
+
+RecentLooks::RecentLooks(int max_looks_per_frame)
+    : entries_(std::max(kLeastEntries, kFrames * static_cast<std::size_t>(max_looks_per_frame))) {}
+
+void RecentLooks::add(std::uint64_t track_id, VehicleTime time, const Look& look) {
+  entries_[next_] = {track_id, time, look.observation, look.pixel_noise};
+  next_ = (next_ + 1) % entries_.size();
+  size_ = std::min(size_ + 1, entries_.size());
+}
+
+void RecentLooks::rename(std::uint64_t gone, std::uint64_t kept) {
+  for (std::size_t i = 0; i < size_; ++i) {
+    Entry& entry = entries_[i];
+    if (entry.track_id == gone) entry.track_id = kept;
+  }
+}
+
+void RecentLooks::take_out(VehicleTime since, const DriftTimeline& drift, TrackTable& tracks) {
+  for (std::size_t i = 0; i < size_; ++i) {
+    const Entry& entry = entries_[i];
+    if (entry.time < since || entry.observation.span.first < drift.begin()) continue;
+    RestingObject* const object = tracks.find(entry.track_id);
+    if (object == nullptr || object->sums_since >= since) continue;
+    LandmarkObservation opposite = entry.observation;
+    opposite.information = -opposite.information;
+    object->landmark->add(opposite, drift);
+    const auto H = entry.observation.point_jacobian();
+    object->pixel_information -= H.transpose() * entry.pixel_noise.inverse() * H;
+  }
+}
+
+}  // namespace geoloc
