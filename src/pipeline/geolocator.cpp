@@ -97,11 +97,9 @@ class Geolocator::Implementation {
   std::optional<double> range_at(VehicleTime time) const;
   void anchor_state(VehicleTime captured_at);
   void lift(FrameView nominal_view);
-  void anchor_state(VehicleTime captured_at);
   void select(const std::vector<Detection>& detections);
   void locate();
 
-  bool has_object_ = false;  // a confirmed one
   StateBuffer<double> ranges_;
   std::uint64_t reboots_ = 0;  // when ranges_ was begun
   bool has_object_ = false;    // a confirmed one
