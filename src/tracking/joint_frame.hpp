@@ -57,7 +57,7 @@ struct JointFrame {
   NoiseRepetition repetition;
   double ground_height_m;    ///< of the level ground above home, in the lifted view, before the calibration
   double clutter_per_frame;  ///< false boxes
-  RunTimeError run_time;
+  RunTimeError run_time = {};
 
   VehicleTime time() const { return view.vehicle.time; }
 };
