@@ -46,11 +46,10 @@ class StreamStart {
   void take_interval(double interval_s) {
     const bool is_stream = usual_interval_s_ < kMostOfStream_s;
     if (!is_stream) started_at_.reset();
-    if (is_stream && interval_s > std::max(kPause_s, kIntervalsOfPause * usual_interval_s_)) {
+    if (is_stream && interval_s > std::max(kPause_s, kIntervalsOfPause * usual_interval_s_))
       started_at_ = *newest_ + from_seconds(interval_s);
-      return;
-    }
-    if (interval_s > 0.0) usual_interval_s_ += kForgetting * (std::min(interval_s, 10.0) - usual_interval_s_);
+    if (interval_s > 0.0)
+      usual_interval_s_ += kForgetting * (std::min(interval_s, 2.0 * kMostOfStream_s) - usual_interval_s_);
   }
 
   static constexpr double kForgetting = 0.1;

@@ -28,16 +28,14 @@ TEST(StreamStart, TheFirstSecondsShareAWideErrorAndLaterFramesNone) {
 TEST(StreamStart, AStreamThatPausedBeginsAnew) {
   StreamStart start;
   for (int i = 0; i < 100; ++i) unstated(start, 0.1 * i);
-  EXPECT_GT(unstated(start, 18.0).sigma_s, 0.0);
-  EXPECT_GT(unstated(start, 20.9).sigma_s, 0.0);
-  EXPECT_EQ(unstated(start, 21.1).sigma_s, 0.0);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(unstated(start, 18.0 + 0.1 * i).sigma_s > 0.0, i < 30) << i;
 }
 
 TEST(StreamStart, FramesThatAlwaysComeSecondsApartAreNoStream) {
   StreamStart start;
   for (int i = 0; i < 100; ++i) {
     const double sigma_s = unstated(start, 4.0 * i).sigma_s;
-    EXPECT_TRUE(i <= 5 || sigma_s == 0.0) << i;
+    EXPECT_TRUE(i <= 8 || sigma_s == 0.0) << i;
   }
 }
 
