@@ -38,6 +38,8 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
 constexpr double kSigmaOfFoundLatency_s = 0.1;
 /// Looks follow a change of the latency by so much, as linearised.
 constexpr double kMostLinear_s = 0.5;
+/// A latency that places most looks on their objects is not given up, whatever another one might explain.
+constexpr double kMostExplained = 0.9;
 /// Objects that have been known for so long, and lie within so many heights, show whether the latency holds.
 constexpr Duration kKnownFor = std::chrono::seconds{3};
 constexpr double kReachOfKnown = 1.5;
@@ -99,6 +101,7 @@ void JointTracker::update(const LocatedFrame& located) {
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
   learn_noise(looks.at_rest, explanation);
+  explained_share_.take(explanation.match_of_look);
   const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift,
                          frame.ground_height_m - errors_.calibration.height_m()};
 
@@ -141,7 +144,7 @@ void JointTracker::watch_latency(const LocatedFrame& located, const JointFrame& 
       located.stamp, located.detections,
       {located.viewer, located.projector, errors_, latency_watch_.is_at_start(), located.view.terrain_m},
       known_places(located, frame));
-  if (!change) return;
+  if (!change || !(latency_watch_.is_at_start() || explained_share_.value() < kMostExplained)) return;
   ++book_.counters.latency_changes;
   const LatencyPrior latency{change->latency_s, kSigmaOfFoundLatency_s};
   if (latency_watch_.is_at_start()) {

@@ -10,6 +10,7 @@
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "tracking/clutter_rate.hpp"
 #include "tracking/detection_rate.hpp"
+#include "tracking/explained_share.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/known_point_matcher.hpp"
 #include "tracking/latency_watch.hpp"
@@ -82,6 +83,7 @@ class JointTracker final : public Tracker {
   LookMaker look_maker_;
   LookMatcher look_matcher_;
   DetectionRate detection_rate_;
+  ExplainedShare explained_share_;
   ClutterRate clutter_rate_;
   KnownPointMatcher known_points_;
   TrackTable tracks_;

@@ -24,14 +24,14 @@ class StreamStart {
   /// each frame by itself.
   RunTimeError observe(HostTime now, double stated_sigma_s, double own_sigma_s) {
     if (newest_) take_interval(seconds(now - *newest_));
-    if (!newest_) started_at_ = now;
+    if (!newest_) begin_at(now);
     newest_ = now;
     const double frames = std::max(1.0, kRun_s / std::max(usual_interval_s_, 1e-3));
     if (stated_sigma_s > 0.0) {
       const double excess = stated_sigma_s * stated_sigma_s - own_sigma_s * own_sigma_s;
       return {excess > 0.0 ? std::sqrt(excess) : 0.0, frames};
     }
-    const bool is_start = started_at_ && seconds(now - *started_at_) < kRun_s && now >= *started_at_;
+    const bool is_start = is_stream_ && seconds(now - started_at_) < kRun_s && now >= started_at_;
     return is_start ? RunTimeError{kSigmaOfArrival_s, frames} : RunTimeError{};
   }
 
@@ -43,18 +43,25 @@ class StreamStart {
   static constexpr double kPause_s = 1.5, kIntervalsOfPause = 6.0;
   static constexpr double kMostOfStream_s = 1.0;
 
+  void begin_at(HostTime start) {
+    started_at_ = start;
+    is_stream_ = true;
+  }
+
   void take_interval(double interval_s) {
-    const bool is_stream = usual_interval_s_ < kMostOfStream_s;
-    if (!is_stream) started_at_.reset();
-    if (is_stream && interval_s > std::max(kPause_s, kIntervalsOfPause * usual_interval_s_))
-      started_at_ = *newest_ + from_seconds(interval_s);
+    if (usual_interval_s_ >= kMostOfStream_s) {
+      is_stream_ = false;
+    } else if (interval_s > std::max(kPause_s, kIntervalsOfPause * usual_interval_s_)) {
+      begin_at(*newest_ + from_seconds(interval_s));
+    }
     if (interval_s > 0.0)
       usual_interval_s_ += kForgetting * (std::min(interval_s, 2.0 * kMostOfStream_s) - usual_interval_s_);
   }
 
   static constexpr double kForgetting = 0.1;
   std::optional<HostTime> newest_;
-  std::optional<HostTime> started_at_;
+  HostTime started_at_{};
+  bool is_stream_ = false;
   double usual_interval_s_ = 0.1;
 };
 

@@ -489,7 +489,9 @@ double learnt_strength(double strength, unsigned seed, double duration_s = 180.0
     pose.position.head<2>() += wandered[static_cast<std::size_t>(std::lround(time_s / step_s))];
     return pose;
   };
-  NadirFlight flight({}, reported, truth);
+  GeolocatorConfig config;
+  config.joint.least_offset_sigma_m = 0.0;
+  NadirFlight flight(config, reported, truth);
   for (int i = 5; step_s * i < duration_s; i += 4) flight.see(step_s * i, grid(0.0, 30.0, 10.0));
   const double constant_m = std::sqrt(0.5 * joint.constant_share) * joint.horizontal_accuracy_m;
   return flight.geolocator().calibration()->sigma(CalibrationIndex::kOffset) / constant_m;

@@ -100,8 +100,8 @@ TEST_F(FrameViews, ThatAreNoneSayWhy) {
   fly_until(2.0);
   EXPECT_EQ(view(2.5, 0.1).error(), NoState::kNotYet);
   EXPECT_EQ(view(0.5, 0.6).error(), NoState::kTooOld);
-  samples_ += 10;
-  fly_until(4.0);
+  samples_ += 40;
+  fly_until(7.0);
   EXPECT_EQ(view(2.5, 0.1).error(), NoState::kInAGap);
   state_.restart();
   EXPECT_EQ(view(2.5, 0.1).error(), NoState::kNoSamples);

@@ -156,6 +156,7 @@ class NadirFlight {
     FrameDetections frame;
     frame.captured_at = at_s(time_s);
     frame.captured_at_host = host_at_s(time_s);
+    frame.time_sigma_s = 1e-9;  // the stamp is stated to be right, from the first frame on
     frame.detections = std::move(detections);
     return geolocator_.process(frame);
   }

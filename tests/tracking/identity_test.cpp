@@ -14,7 +14,7 @@ namespace {
 using testing::append_seen;
 using testing::lone_look;
 
-constexpr double kVariance_m2 = 0.04;
+constexpr double kOwnVariance_m2 = 0.04;
 /// What looks at one object from several sides differ by, per axis, of the difference of two.
 constexpr double kOneObject_m2 = 2.0 * 0.15 * 0.15;
 constexpr double kOneHeight_m2 = 2.0 * 0.5 * 0.5;
@@ -26,7 +26,7 @@ class TwoTracks : public ::testing::Test {
 
   RestingObject& append(const Eigen::Vector2d& place, int hits = 10,
                         const Eigen::Vector2d& slope = Eigen::Vector2d::Zero()) {
-    return append_seen(tracks_, errors_, place, hits, kVariance_m2, slope);
+    return append_seen(tracks_, errors_, place, hits, kOwnVariance_m2, slope);
   }
 
   ArrowheadSolver::Solution solution() {
@@ -51,7 +51,7 @@ TEST_F(TwoTracks, DifferByTheirOwnNoiseAndThatOfTheFramesThatTheyDoNotShare) {
     b.last_look = VehicleTime{from_seconds(50.0 - apart_s)};
     // Of five frames that share their noise, ten looks leave a half and four leave all.
     const double frames = (1.0 - std::exp(-apart_s)) * (0.5 + 1.0) * 0.09;
-    const double across = kVariance_m2 / 10.0 + kVariance_m2 / 4.0 + frames + kOneObject_m2;
+    const double across = kOwnVariance_m2 / 10.0 + kOwnVariance_m2 / 4.0 + frames + kOneObject_m2;
     const double height = 2.0 * testing::kSigmaGround_m * testing::kSigmaGround_m + kOneHeight_m2;
     const PointMatrix expected = Point(across, across, height).asDiagonal();
     EXPECT_LT((covariance_of_difference(a, b, solution(), noise_) - expected).norm(), 1e-9) << apart_s;
@@ -64,7 +64,7 @@ TEST_F(TwoTracks, DifferByWhatIsNotKnownOfTheirHeights) {
   const Eigen::Vector2d slope_of_a(0.2, -0.1), slope_of_b(-0.05, 0.3);
   RestingObject& a = append({0, 0}, 10, slope_of_a);
   RestingObject& b = append({0.5, 0}, 4, slope_of_b);
-  const double pixels = kVariance_m2 / 10.0 + kVariance_m2 / 4.0;
+  const double pixels = kOwnVariance_m2 / 10.0 + kOwnVariance_m2 / 4.0;
   const double ground = testing::kSigmaGround_m * testing::kSigmaGround_m;
   const Point ray_of_a(slope_of_a.x(), slope_of_a.y(), 1.0), ray_of_b(slope_of_b.x(), slope_of_b.y(), 1.0);
   PointMatrix expected = Point(pixels + kOneObject_m2, pixels + kOneObject_m2, kOneHeight_m2).asDiagonal();
@@ -83,12 +83,12 @@ TEST_F(TwoTracks, OnRaysBesideEachOtherAreNotOneHoweverHighTheGroundMayBe) {
 }
 
 TEST_F(TwoTracks, MayBeOneWithinTheGate) {
-  const double sigma_m = std::sqrt(2.0 * kVariance_m2 / 10.0 + kOneObject_m2);
+  const double sigma_m = std::sqrt(2.0 * kOwnVariance_m2 / 10.0 + kOneObject_m2);
   const double gate_m = std::sqrt(config_.merge_gate) * sigma_m;
   for (const double share : {0.5, 0.98, 1.02}) {
     TrackTable two(2);
-    append_seen(two, errors_, {0, 0}, 10, kVariance_m2);
-    append_seen(two, errors_, {0, share * gate_m}, 10, kVariance_m2);
+    append_seen(two, errors_, {0, 0}, 10, kOwnVariance_m2);
+    append_seen(two, errors_, {0, share * gate_m}, 10, kOwnVariance_m2);
     const auto solution = solver_.solve(two.landmarks(), errors_.prior(), errors_.drift);
     EXPECT_EQ(may_be_one(two[0], two[1], *solution, noise_, config_), share < 1.0);
   }
@@ -142,11 +142,11 @@ class Neighbourhood : public TwoTracks {
   void see(RestingObject& object, const Eigen::Vector2d& innovation = {0, 0}) {
     object.is_seen = true;
     object.look = looks_.size();
-    looks_.push_back(lone_look(object.track.position_in_enu.mean + innovation, kVariance_m2));
+    looks_.push_back(lone_look(object.track.position_in_enu.mean + innovation, kOwnVariance_m2));
     JointAssociation::Match match;
     match.track = 0;
     match.innovation = innovation;
-    match.innovation_covariance = lone_look({0, 0}, kVariance_m2).pixel_noise;
+    match.innovation_covariance = lone_look({0, 0}, kOwnVariance_m2).pixel_noise;
     explanation_.match_of_look.push_back(match);
   }
 
@@ -185,13 +185,13 @@ TEST_F(Neighbourhood, IsDoubtedWhereOneOfTwoThatShouldBeSeenIsNot) {
   for (const double probability : {0.5, 0.0}) {
     TrackTable tracks(4);
     for (const double east : {0.0, 1.0}) {
-      RestingObject& object = append_seen(tracks, errors_, {east, 0.0}, 5, kVariance_m2);
+      RestingObject& object = append_seen(tracks, errors_, {east, 0.0}, 5, kOwnVariance_m2);
       object.neighbours.seen_apart(object.track.id == 1 ? 2 : 1);
     }
     tracks[0].is_seen = true;
     tracks[0].look = 0;
     tracks[1].detection_probability = probability;
-    const std::vector<Look> looks{lone_look({0, 0}, kVariance_m2)};
+    const std::vector<Look> looks{lone_look({0, 0}, kOwnVariance_m2)};
     JointAssociation::Match match;
     match.innovation.setZero();
     match.innovation_covariance.setZero();
@@ -216,7 +216,7 @@ class DrawnAside : public Neighbourhood {
       see(older, innovation);
       see(younger);
       tell();
-      if (older.pixel_information(0, 0) < 1.5 / kVariance_m2) return frame;
+      if (older.pixel_information(0, 0) < 1.5 / kOwnVariance_m2) return frame;
     }
     return 0;
   }
@@ -225,8 +225,9 @@ class DrawnAside : public Neighbourhood {
 TEST_F(DrawnAside, BeginsAnewFromThePresentLook) {
   EXPECT_EQ(looks_until_it_begins_anew({0.8, 0.0}), 5);
   EXPECT_LT((tracks_[0].track.position_in_enu.mean - Eigen::Vector2d(0.8, 0.0)).norm(), 1e-9);
-  EXPECT_LT((tracks_[0].track.position_in_enu.covariance - kVariance_m2 * Eigen::Matrix2d::Identity()).norm(),
-            1e-9);
+  EXPECT_LT(
+      (tracks_[0].track.position_in_enu.covariance - kOwnVariance_m2 * Eigen::Matrix2d::Identity()).norm(),
+      1e-9);
   EXPECT_EQ(tracks_[0].mixture.looks, 0);
   EXPECT_EQ(tracks_[1].mixture.looks, 0);  // of the two the older one is in question
 }
@@ -234,14 +235,14 @@ TEST_F(DrawnAside, BeginsAnewFromThePresentLook) {
 /// The mean of n looks beyond their noise by chi-square 13.8 and by a tenth of a metre.
 TEST_F(DrawnAside, IsTheSurerTheMoreLooksThereAre) {
   const double drawn_m = 0.5;
-  const int needed = static_cast<int>(std::ceil(13.8 * 2.0 * kVariance_m2 / (drawn_m * drawn_m - 0.01)));
+  const int needed = static_cast<int>(std::ceil(13.8 * 2.0 * kOwnVariance_m2 / (drawn_m * drawn_m - 0.01)));
   ASSERT_EQ(needed, 5);
   EXPECT_EQ(looks_until_it_begins_anew({drawn_m, 0.0}), 5);
 }
 
 TEST_F(DrawnAside, TakesTenLooksAtAThirdOfAMetre) {
   const double drawn_m = 0.35;
-  const int needed = static_cast<int>(std::ceil(13.8 * 2.0 * kVariance_m2 / (drawn_m * drawn_m - 0.01)));
+  const int needed = static_cast<int>(std::ceil(13.8 * 2.0 * kOwnVariance_m2 / (drawn_m * drawn_m - 0.01)));
   EXPECT_EQ(looks_until_it_begins_anew({drawn_m, 0.0}), needed);
   EXPECT_EQ(needed, 10);
 }
@@ -273,7 +274,7 @@ TEST_F(DrawnAside, OfAKnownPointIsNot) {
     tell();
   }
   EXPECT_EQ(older.mixture.looks, 0);
-  EXPECT_NEAR(older.pixel_information(0, 0), 50.0 / kVariance_m2, 1e-6);
+  EXPECT_NEAR(older.pixel_information(0, 0), 50.0 / kOwnVariance_m2, 1e-6);
 }
 
 TEST_F(DrawnAside, OfATrackThatTheLookBeganIsNot) {

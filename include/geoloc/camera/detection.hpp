@@ -45,10 +45,10 @@ inline constexpr double kLargestTimeSigma_s = 60.0;
 struct FrameDetections {
   VehicleTime captured_at;    ///< middle of the exposure, on the autopilot's clock
   HostTime captured_at_host;  ///< the same instant as UTC, kept for the record (first and last seen)
+  std::vector<Detection> detections;
   /// 1-sigma of captured_at, but for what is constant over the flight; 0: not stated, and the configured
   /// constant holds.
   double time_sigma_s = 0.0;
-  std::vector<Detection> detections;
 };
 
 }  // namespace geoloc

@@ -18,13 +18,13 @@ namespace geoloc::sim {
 struct CameraErrors {
   double latency_s = 0.12;         ///< [s] a frame's stamp is later than its exposure by this
   double latency_jitter_s = 0.01;  ///< [s] 1-sigma of the same, drawn for each frame
-  double clock_step_s = 0.0;       ///< [s] the camera's clock is ahead by so much from the run's middle on
-  double late_start_s = 0.0;       ///< [s] stamps of the first kStreamStart_s are later by so much
   double mount_sigma_deg =
       0.7;  ///< [deg] 1-sigma of the mounting error about each body axis, drawn for each run
   std::optional<std::array<double, 3>>
       mount_error_deg;             ///< [deg] about forward, right, down: instead of a drawn one
   bool lens_is_calibrated = true;  ///< the estimator is told the lens distortion
+  double clock_step_s = 0.0;       ///< [s] the camera's clock is ahead by so much from the run's middle on
+  double late_start_s = 0.0;       ///< [s] stamps of the first kStreamStart_s are later by so much
 };
 
 /// For so long after connecting, a stream's sender is not known to tell the time [s].
