@@ -46,8 +46,7 @@ std::string remarks(const Session& session) {
        {count_of_jumps(session.geolocator().state().counters()), clock_message(session)}) {
     if (!news.empty()) lines += "\n" + news;
   }
-  return lines + unused_known_points(session.geolocator()) +
-         useless_terrain(session.geolocator());
+  return lines + unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
 }
 
 }  // namespace

@@ -8,10 +8,11 @@
 namespace geoloc {
 namespace {
 
-/// Multicopters and small wings accelerate by less than 7 m/s^2, and turn with less than 270 deg/s^2.
+/// Multicopters and small wings accelerate by less than 7 m/s^2, and begin to turn with less than 900
+/// deg/s^2.
 constexpr StepLimits kHorizontal{1.0, 7.0, 0.3, 0.005};
 constexpr StepLimits kHeight{1.0, 7.0, 0.2, 0.02};
-constexpr StepLimits kYaw{6.0 * kRadPerDeg, 270.0 * kRadPerDeg, 1.0 * kRadPerDeg, 0.02};
+constexpr StepLimits kYaw{6.0 * kRadPerDeg, 900.0 * kRadPerDeg, 1.0 * kRadPerDeg, 0.02};
 /// Yaw says nothing where the nose points up or down.
 constexpr double kMostPitch_rad = 60.0 * kRadPerDeg;
 

