@@ -47,7 +47,8 @@ Noise noise_of(const FixJacobians& jacobians, const RunTimeError& run_time, cons
   const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
   const double position_variance = errors.noise.position_factor() * fast_position_variance_m2(config, errors);
   const Eigen::Matrix2d per_time = ground_velocity * ground_velocity.transpose();
-  return {std::pow(config.sigma_time_s, 2) * per_time, std::pow(run_time.sigma_s, 2) * per_time,
+  return {std::pow(config.sigma_time_s, 2) * per_time,
+          std::pow(run_time.sigma_s, 2) * per_time,
           errors.noise.attitude_variance_rad2() * turn * turn.transpose(),
           position_variance * Eigen::Matrix2d::Identity(),
           std::pow(vehicle.sigma_turn_rad, 2) * turn * turn.transpose() +
