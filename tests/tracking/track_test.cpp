@@ -52,9 +52,9 @@ TEST(Track, OfTwoThatAreOneHasTheRecordsOfBoth) {
 }
 
 TEST(Track, OfTwoThatAreOneIsConfirmedWhereEitherIs) {
-  Track confirmed, tentative;
+  Track kept, confirmed;
+  const Track tentative{};
   confirmed.status = TrackStatus::kConfirmed;
-  Track kept = tentative;
   merge_records(kept, confirmed);
   EXPECT_EQ(kept.status, TrackStatus::kConfirmed);
   merge_records(kept, tentative);
