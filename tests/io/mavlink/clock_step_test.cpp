@@ -178,7 +178,8 @@ TEST_P(CrowdedLinks, HideNoStepForLong) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(VehicleClockMap, CrowdedLinks, ::testing::Values(&queue_of_radio, &restless_crowd));
+INSTANTIATE_TEST_SUITE_P(VehicleClockMap, CrowdedLinks, ::testing::Values(&queue_of_radio, &restless_crowd),
+                         [](const auto& link) { return link.index == 0 ? "Queue" : "RestlessCrowd"; });
 
 TEST(VehicleClockMap, ACrowdedLinkThatLooksLikeAStepLeavesTheMapInDoubt) {
   SteppingVehicle vehicle(0s, RoundTrips::kNone, &steady_crowd);
