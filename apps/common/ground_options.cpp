@@ -9,8 +9,8 @@
 namespace geoloc::apps {
 namespace {
 
-/// Of the camera's height: beyond half of it, all first looks could be looks at something just below the
-/// camera, and objects are taken for each other.
+/// A share of the camera's height: beyond half of it, all first looks could be looks at something just below
+/// the camera, and objects are taken for each other.
 constexpr double kFreeShare = 0.4;
 
 }  // namespace

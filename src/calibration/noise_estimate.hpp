@@ -25,9 +25,9 @@ class NoiseEstimate {
   explicit NoiseEstimate(double sigma_attitude_rad);
 
   double attitude_variance_rad2() const { return attitude_.value(); }
-  /// Of the position's noise, against what is expected of the receiver's accuracy.
+  /// Variance of the position's noise, against what is expected of the receiver's accuracy.
   double position_factor() const { return position_.value(); }
-  /// Of the detector's noise, against what is stated or configured.
+  /// Variance of the detector's noise, against what is stated or configured.
   double pixel_factor() const { return pixel_.value(); }
 
   /// A frame, look by look; further looks than there is room for tell little more.

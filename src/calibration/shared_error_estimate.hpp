@@ -21,8 +21,8 @@ struct PositionAccuracy {
   double constant_share;        ///< share of the variance that stays constant over a flight; the rest wanders
   double least_offset_sigma_m;  ///< of the constant error, per axis
 
-  /// Of it, what may change within minutes: whatever a receiver says of itself, an autopilot's position does
-  /// not wander by tens of metres and stay usable.
+  /// The part of it that may change within minutes: whatever a receiver says of itself, an autopilot's
+  /// position does not wander by tens of metres and stay usable.
   double changing_m() const { return std::min(radial_m, kMostChanging_m); }
 
   /// 1-sigma per axis of the wandering.

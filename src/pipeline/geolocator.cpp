@@ -151,8 +151,8 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
 void Geolocator::Implementation::lift(FrameView nominal_view) {
   const Eigen::Vector3d& camera = nominal_view.enu_from_camera.translation;
   if (config.method == Method::kJoint) nominal_view.terrain_m = ground.height_m(camera.head<2>());
-  const double reported_m = camera.z() - config.projector.ground_height_above_home_m - nominal_view.terrain_m;
-  view = calibrated(nominal_view, tracker->calibration(), tracker->lift_m(reported_m));
+  view = calibrated(nominal_view, tracker->calibration(),
+                    tracker->lift_m(reported_height_m(nominal_view, config.projector)));
 }
 
 /// Nothing is on the map until an object is confirmed: of the states before and after a step, the newest is

@@ -19,6 +19,12 @@ struct FrameViewer {
   Expected<FrameView, NoState> nominal_view(FrameStamp stamp, double latency_s) const;
 };
 
+/// How high the camera of a nominal view is reported to be above the ground below the vehicle [m].
+inline double reported_height_m(const FrameView& nominal_view, const ProjectorConfig& projector) {
+  return nominal_view.enu_from_camera.translation.z() - projector.ground_height_above_home_m -
+         nominal_view.terrain_m;
+}
+
 /// The view turned by the boresight, and lifted by `lift_m` above the ground below the vehicle (terrain_m).
 FrameView calibrated(FrameView nominal_view, const Calibration& calibration, double lift_m);
 

@@ -52,7 +52,7 @@ class JointAssociation {
   /// A pair that may belong together; those beyond the gate by themselves are dropped.
   void add(const Pairing& pairing);
 
-  /// Of the explanation found by solve(): -2 ln of its probability density, but for a constant.
+  /// -2 ln of the probability density of the explanation that solve() found, but for a constant.
   double cost() const;
 
   /// One match per look. Where no look has a choice, each goes to its track, which is a good deal faster.

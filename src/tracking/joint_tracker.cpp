@@ -159,7 +159,7 @@ void JointTracker::watch_latency(const LocatedFrame& located, const JointFrame& 
   schedule_ = SolutionSchedule(config_.solve_period_s);
 }
 
-/// Of the confirmed objects near the vehicle those that have been known for longest. None at the flight's
+/// The confirmed objects near the vehicle that have been known for longest. None at the flight's
 /// start: they were placed with the latency that is in question.
 KnownPlaces JointTracker::known_places(const LocatedFrame& located, const JointFrame& frame) const {
   KnownPlaces known;

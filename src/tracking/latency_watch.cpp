@@ -57,8 +57,7 @@ std::optional<FrameView> CalibratedViewer::at(FrameStamp stamp, double latency_s
   if (!found) return std::nullopt;
   FrameView nominal = *found;
   nominal.terrain_m = terrain_m;
-  const double reported_m =
-      nominal.enu_from_camera.translation.z() - terrain_m - projector.config().ground_height_above_home_m;
+  const double reported_m = reported_height_m(nominal, projector.config());
   if (calibration_is_void) {
     const double lift_m = std::max(errors.height_prior.mean_m, kUsualHeight_m - reported_m);
     return calibrated(nominal, Calibration{}, lift_m);

@@ -10,7 +10,7 @@
 
 namespace geoloc {
 
-/// Of the position from second to second, per axis, as the reported accuracy lets expect [m^2].
+/// Variance of the position from second to second, per axis, as the reported accuracy lets expect [m^2].
 double fast_position_variance_m2(const JointTrackerConfig& config, const SharedErrorEstimate& errors);
 
 bool is_of_moving_class(const Detection& detection, const MovingConfig& moving);

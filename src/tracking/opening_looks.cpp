@@ -65,8 +65,7 @@ void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& pr
       frame.nominal_view = *found;
     if (!frame.nominal_view) continue;
     frame.nominal_view->terrain_m = frame.terrain_m;
-    const double reported_m = frame.nominal_view->enu_from_camera.translation.z() - frame.terrain_m -
-                              projector.config().ground_height_above_home_m;
+    const double reported_m = reported_height_m(*frame.nominal_view, projector.config());
     const FrameView view = calibrated(*frame.nominal_view, errors.calibration, errors.lift_m(reported_m));
     linearise_anew(frame, view, projector, maker, errors, tracks);
   }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/recent_looks.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 
 namespace geoloc {
 namespace {
 
-/// Of as many looks as a frame may have; fewer last for longer.
+/// Room for so many frames of as many looks as one may have; frames of fewer looks last for longer.
 constexpr std::size_t kFrames = 16;
 constexpr std::size_t kLeastEntries = 1000;
 
@@ -35,11 +34,7 @@ void RecentLooks::take_out(VehicleTime since, const DriftTimeline& drift, TrackT
     if (entry.time < since || entry.observation.span.first < drift.begin()) continue;
     RestingObject* const object = tracks.find(entry.track_id);
     if (object == nullptr || object->sums_since >= since) continue;
-    LandmarkObservation opposite = entry.observation;
-    opposite.information = -opposite.information;
-    object->landmark->add(opposite, drift);
-    const auto H = entry.observation.point_jacobian();
-    object->pixel_information -= H.transpose() * entry.pixel_noise.inverse() * H;
+    take_out_look(*object, entry.observation, entry.pixel_noise, drift);
   }
 }
 

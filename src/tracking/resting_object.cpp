@@ -16,6 +16,12 @@ Landmark::NodeRows recent_drift(const Landmark& landmark, const NodeSpan& now) {
   return sum;
 }
 
+/// What the detector's noise leaves to be known of the object.
+PointMatrix pixel_information_of(const LandmarkObservation& observation, const Eigen::Matrix2d& pixel_noise) {
+  const Eigen::Matrix<double, 2, kPointSize> H = observation.point_jacobian();
+  return H.transpose() * pixel_noise.inverse() * H;
+}
+
 }  // namespace
 
 void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now) {
@@ -36,9 +42,16 @@ void clear_sums(RestingObject& object) {
 }
 
 void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift) {
-  const Eigen::Matrix<double, 2, kPointSize> H = look.observation.point_jacobian();
   object.landmark->add(look.observation, drift);
-  object.pixel_information += H.transpose() * look.pixel_noise.inverse() * H;
+  object.pixel_information += pixel_information_of(look.observation, look.pixel_noise);
+}
+
+void take_out_look(RestingObject& object, const LandmarkObservation& observation,
+                   const Eigen::Matrix2d& pixel_noise, const DriftTimeline& drift) {
+  LandmarkObservation opposite = observation;
+  opposite.information = -opposite.information;
+  object.landmark->add(opposite, drift);
+  object.pixel_information -= pixel_information_of(observation, pixel_noise);
 }
 
 void add_to_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors) {

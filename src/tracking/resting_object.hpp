@@ -48,6 +48,10 @@ void refresh(RestingObject& object, const SharedErrorEstimate& errors, const Nod
 /// The look shows the object; refresh() is the caller's.
 void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift);
 
+/// Undoes add_look() for a look of that observation and noise.
+void take_out_look(RestingObject& object, const LandmarkObservation& observation,
+                   const Eigen::Matrix2d& pixel_noise, const DriftTimeline& drift);
+
 /// The look shows the object.
 void add_to_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors);
 

@@ -6,7 +6,7 @@
 
 namespace geoloc::testing {
 
-/// Of a vehicle about which nothing was learnt.
+/// The noise of a vehicle about which nothing was learnt.
 inline const NoiseEstimate kNoise(0.1 * kRadPerDeg);
 
 }  // namespace geoloc::testing

@@ -54,8 +54,6 @@ struct FrameStamp {
   VehicleTime captured_at;
   HostTime captured_at_host;
   double time_sigma_s = 0.0;  ///< 1-sigma; 0: not stated
-
-  double time_sigma_s_or(double constant_s) const { return time_sigma_s > 0.0 ? time_sigma_s : constant_s; }
 };
 
 /// From where a frame was seen.

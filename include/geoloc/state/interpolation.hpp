@@ -17,13 +17,6 @@ struct Interpolator {
   }
 };
 
-template <>
-struct Interpolator<double> {
-  static double between(double before, double after, double alpha) {
-    return before + alpha * (after - before);
-  }
-};
-
 /// Shortest rotation at constant rate.
 template <>
 struct Interpolator<Eigen::Quaterniond> {

@@ -27,7 +27,7 @@ class FrameFactory {
   Bytes position(VehicleTime time, double latitude_deg, double longitude_deg,
                  double height_above_home_m = 20.0);
   Bytes gnss(std::uint8_t fix_type, double h_acc_m = 0.0);
-  /// Of a sensor from 0.2 m to 40 m.
+  /// A reading of a sensor that measures from 0.2 m to 40 m.
   Bytes distance_sensor(VehicleTime time, double distance_m, std::uint8_t orientation = 25,
                         std::uint8_t signal_quality = 0);
   Bytes rangefinder(double distance_m);

@@ -18,7 +18,7 @@ class TelemetrySink {
   virtual void on_attitude(const AttitudeSample& sample) = 0;
   virtual void on_position(const PositionSample& sample) = 0;
 
-  /// Of no use to most.
+  /// A rangefinder's reading, which most sinks have no use for.
   virtual void on_range(const RangeSample&) {}
 
   /// The vehicle's clock was reset: times before and after it cannot be compared.
