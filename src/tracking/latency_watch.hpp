@@ -7,23 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "calibration/shared_error_estimate.hpp"
 #include "geoloc/projection/ground_fix.hpp"
-#include "geoloc/projection/projector.hpp"
-#include "projection/frame_viewer.hpp"
+#include "tracking/calibrated_viewer.hpp"
 
 namespace geoloc {
-
-/// From where frames are seen, at any latency, with what is known of the camera by now.
-struct CalibratedViewer {
-  const FrameViewer& viewer;
-  const Projector& projector;
-  const SharedErrorEstimate& errors;
-  bool calibration_is_void;  ///< learnt with the latency that is in question
-  double terrain_m;          ///< of the ground under the present frame's camera
-
-  std::optional<FrameView> at(FrameStamp stamp, double latency_s) const;
-};
 
 /// Objects known for a while, where frames of the present show them: offset and drift of the vehicle undone.
 struct KnownPlaces {
