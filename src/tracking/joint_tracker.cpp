@@ -10,6 +10,7 @@
 #include "tracking/gaussian.hpp"
 #include "tracking/ground_prior.hpp"
 #include "tracking/identity.hpp"
+#include "tracking/known_places.hpp"
 #include "tracking/misses.hpp"
 #include "tracking/range_aid.hpp"
 
@@ -36,16 +37,6 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
 
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
 constexpr double kSigmaOfFoundLatency_s = 0.1;
-/// Looks follow a change of the latency by so much, as linearised.
-constexpr double kMostLinear_s = 0.5;
-/// A latency that places most looks on their objects is not given up, whatever another one might explain.
-constexpr double kMostExplained = 0.9;
-/// Objects that have been known for so long, and lie within so many heights, show whether the latency holds.
-constexpr Duration kKnownFor = std::chrono::seconds{3};
-constexpr double kReachOfKnown = 1.5;
-/// A clock may have stepped so long before it shows.
-constexpr Duration kHidden = std::chrono::milliseconds{700};
-
 /// Where objects move to another slope of the ground, that is what is known of their height.
 void follow_ground(const GroundModel& ground, TrackTable& tracks) {
   if (ground.is_level()) return;
@@ -71,6 +62,8 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
               NoiseEstimate(config.sigma_attitude_deg * kRadPerDeg), config.drift, solver_),
       heights_(config.drift.max_nodes),
       noise_clock_(config.fast_time_constant_s, config.attitude_time_constant_s),
+      clock_watch_(config.max_tracks),
+      waiting_(max_detections),
       schedule_(config.solve_period_s),
       look_maker_(config_, max_detections),
       look_matcher_(config_, max_detections),
@@ -94,6 +87,36 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
 }
 
 void JointTracker::update(const LocatedFrame& located) {
+  if (is_clock_watched()) {
+    watch_clock(located);
+    process_in_turn(located);
+  } else {
+    process(located);
+    watch_start(located);
+    proven_at_ = located.view.vehicle.time;
+  }
+  publish(located.projector);
+}
+
+/// Frames wait while the clock is in doubt, and are made up for a few at a time.
+void JointTracker::process_in_turn(const LocatedFrame& located) {
+  constexpr int kFramesAtOnce = 4;
+  while (!waiting_.make_room()) process_next(located);
+  const bool is_next = waiting_.due() == 0 && !clock_watch_.holds();
+  waiting_.add(located, clock_watch_.holds());
+  if (is_next && waiting_.due() == 1) {
+    waiting_.count_newest_as_used();
+    process(located);
+  }
+  for (int i = 0; i < kFramesAtOnce && waiting_.due() > 0; ++i) process_next(located);
+  if (clock_watch_.proves()) waiting_.drop_used();
+}
+
+void JointTracker::process_next(const LocatedFrame& newest) {
+  if (const auto frame = waiting_.use_next(newest, errors_)) process(*frame);
+}
+
+void JointTracker::process(const LocatedFrame& located) {
   const JointFrame frame = begin_frame(located);
   FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
   place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
@@ -101,7 +124,6 @@ void JointTracker::update(const LocatedFrame& located) {
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
   learn_noise(looks.at_rest, explanation);
-  explained_share_.take(explanation.match_of_look);
   const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift,
                          frame.ground_height_m - errors_.calibration.height_m()};
 
@@ -117,8 +139,6 @@ void JointTracker::update(const LocatedFrame& located) {
                   detection_rate_.probability()},
                  book_);
   if (schedule_.is_due(frame.time())) refine(located, frame, noise);
-  watch_latency(located, frame);
-  publish(located.projector);
 }
 
 /// The first reading is where the estimate of the height begins: it may be tens of metres from the prior,
@@ -136,52 +156,37 @@ void JointTracker::measure_height(const LocatedFrame& located, const NodeSpan& n
   if (is_first && tracks_.size() == 0) errors_.calibration.mean[Index::kHeight] = reading->value_m;
 }
 
-/// Frames that are stamped with another latency than believed would put everything beside its place, with
-/// certainty.
-void JointTracker::watch_latency(const LocatedFrame& located, const JointFrame& frame) {
-  if (!(config_.prior.sigma_latency_s > 0.0)) return;
-  const auto change = latency_watch_.observe(
-      located.stamp, located.detections,
-      {located.viewer, located.projector, errors_, latency_watch_.is_at_start(), located.view.terrain_m},
-      known_places(located, frame));
-  if (!change || !(latency_watch_.is_at_start() || explained_share_.value() < kMostExplained)) return;
-  ++book_.counters.latency_changes;
-  const LatencyPrior latency{change->latency_s, kSigmaOfFoundLatency_s};
-  if (latency_watch_.is_at_start()) {
-    begin_anew();
-    errors_.begin_latency(latency);
-    latency_watch_.begin_anew();
-  } else {
-    const Duration ago = located.stamp.captured_at_host - change->since + kHidden;
-    go_on_with_latency(latency, frame.time() - ago, frame);
-    latency_watch_.forget();
-  }
-  schedule_ = SolutionSchedule(config_.solve_period_s);
+bool JointTracker::is_clock_watched() const {
+  return config_.prior.sigma_latency_s > 0.0 && !latency_watch_.is_at_start();
 }
 
-/// The confirmed objects near the vehicle that have been known for longest. None at the flight's
-/// start: they were placed with the latency that is in question.
-KnownPlaces JointTracker::known_places(const LocatedFrame& located, const JointFrame& frame) const {
-  KnownPlaces known;
-  if (latency_watch_.is_at_start()) return known;
-  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), Eigen::Vector2d::Zero(),
-                         frame.ground_height_m - errors_.calibration.height_m()};
-  const auto& doubtful_since = latency_watch_.doubtful_since();
-  const Duration doubt = doubtful_since ? located.stamp.captured_at_host - *doubtful_since : Duration{};
-  const Duration least_age = kKnownFor + doubt;
-  const Eigen::Vector3d& camera = located.view.enu_from_camera.translation;
-  const double reach_m = kReachOfKnown * (camera.z() - frame.ground_height_m);
-  for (const RestingObject& track : tracks_) {
-    if (known.count == KnownPlaces::kMost) break;
-    if (!track.is_confirmed() || frame.time() - track.sums_since < least_age) continue;
-    const Eigen::Vector3d shown = shift.shown(Eigen::Vector3d(track.position_in_enu));
-    if ((shown - camera).head<2>().norm() < reach_m) known.shown_in_enu[known.count++] = shown;
-  }
-  return known;
+/// Frames that are stamped with another latency than believed would put everything beside its place, with
+/// certainty.
+void JointTracker::watch_start(const LocatedFrame& located) {
+  if (!(config_.prior.sigma_latency_s > 0.0)) return;
+  const auto latency_s =
+      latency_watch_.observe(located.stamp, located.detections,
+                             {located.viewer, located.projector, errors_, true, located.view.terrain_m});
+  if (latency_s) begin_anew({*latency_s, kSigmaOfFoundLatency_s});
+}
+
+/// The same in mid-flight, where a clock has stepped.
+void JointTracker::watch_clock(const LocatedFrame& located) {
+  if (!clock_watch_.is_in_doubt())
+    list_places(tracks_, errors_, config_.drift, located, proven_at_, clock_watch_.places());
+  const auto latency = clock_watch_.observe(
+      located.stamp, located.detections,
+      {located.viewer, located.projector, errors_, false, located.view.terrain_m},
+      {detection_rate_.probability(), clutter_rate_.per_frame(), config_.sigma_px,
+       std::sqrt(errors_.noise.attitude_variance_rad2()),
+       errors_.drift.position_scale() * errors_.accuracy.wandering_sigma_m()});
+  if (clock_watch_.proves()) proven_at_ = located.view.vehicle.time;
+  if (latency) go_on_with_latency(*latency, located);
 }
 
 /// What was seen with a wrong latency from the flight's start on is worth nothing.
-void JointTracker::begin_anew() {
+void JointTracker::begin_anew(const LatencyPrior& latency) {
+  ++book_.counters.latency_changes;
   while (tracks_.size() > 0) remove(tracks_.size() - 1);
   opening_looks_.restart();
   recent_looks_.clear();
@@ -189,26 +194,29 @@ void JointTracker::begin_anew() {
   heights_.clear();
   errors_.noise = NoiseEstimate(config_.sigma_attitude_deg * kRadPerDeg);
   errors_.calibration = solver_.prior(errors_.prior());
+  errors_.begin_latency(latency);
+  latency_watch_.begin_anew();
+  schedule_ = SolutionSchedule(config_.solve_period_s);
 }
 
-/// What was known before stays known, without the looks since. What was begun since is of the new latency
-/// altogether; where that is far off, its looks were linearised too far from where they belong.
-void JointTracker::go_on_with_latency(const LatencyPrior& latency, VehicleTime since,
-                                      const JointFrame& frame) {
-  const double change_s = std::abs(latency.latency_s - errors_.calibration.latency_s());
+/// What was known when the latency was last proven stays known. The frames since are used anew: without
+/// their looks, and without what was begun since.
+void JointTracker::go_on_with_latency(const LatencyPrior& latency, const LocatedFrame& frame) {
+  ++book_.counters.latency_changes;
   for (std::size_t row = tracks_.size(); row-- > 0;) {
-    if (tracks_[row].sums_since >= since && change_s > kMostLinear_s) remove(row);
+    if (tracks_[row].sums_since > proven_at_) remove(row);
   }
-  recent_looks_.take_out(since, errors_.drift, tracks_);
+  recent_looks_.take_out(proven_at_ + Duration{1}, errors_.drift, tracks_);
   if (const auto before = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_))
     errors_.take(*before);
-  for (RestingObject& track : tracks_) {
-    if (track.sums_since < since) track.landmark->freeze_latency(errors_.calibration.latency_s());
-  }
+  for (RestingObject& track : tracks_) track.landmark->freeze_latency(errors_.calibration.latency_s());
   errors_.begin_latency(latency);
   bound_height(frame.projector, frame.view);
-  for (RestingObject& track : tracks_) refresh(track, errors_, frame.span);
+  const NodeSpan newest{errors_.drift.end() - 2, 0.0};
+  for (RestingObject& track : tracks_) refresh(track, errors_, newest);
   recent_looks_.clear();
+  waiting_.use_again();
+  schedule_ = SolutionSchedule(config_.solve_period_s);
 }
 
 /// Tracks hold what was whitened with the roots, so that these change with the solution only.

@@ -8,9 +8,9 @@
 #include "calibration/arrowhead.hpp"
 #include "calibration/shared_error_estimate.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
+#include "tracking/clock_watch.hpp"
 #include "tracking/clutter_rate.hpp"
 #include "tracking/detection_rate.hpp"
-#include "tracking/explained_share.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/known_point_matcher.hpp"
 #include "tracking/latency_watch.hpp"
@@ -22,6 +22,7 @@
 #include "tracking/solution_schedule.hpp"
 #include "tracking/track_table.hpp"
 #include "tracking/tracker.hpp"
+#include "tracking/waiting_frames.hpp"
 
 namespace geoloc {
 
@@ -47,6 +48,11 @@ class JointTracker final : public Tracker {
  private:
   using Solution = ArrowheadSolver::Solution;
 
+  void process(const LocatedFrame& located);
+  void process_in_turn(const LocatedFrame& located);
+  void process_next(const LocatedFrame& newest);
+  bool is_clock_watched() const;
+  void watch_clock(const LocatedFrame& located);
   void measure_height(const LocatedFrame& located, const NodeSpan& now);
   void bound_height(const Projector& projector, const FrameView& view);
   JointFrame begin_frame(const LocatedFrame& frame);
@@ -59,10 +65,9 @@ class JointTracker final : public Tracker {
                        const GroundModel& ground, const JointFrame& frame);
   void remove_improbable();
   void remove(std::size_t row);
-  void watch_latency(const LocatedFrame& located, const JointFrame& frame);
-  KnownPlaces known_places(const LocatedFrame& located, const JointFrame& frame) const;
-  void begin_anew();
-  void go_on_with_latency(const LatencyPrior& latency, VehicleTime since, const JointFrame& frame);
+  void watch_start(const LocatedFrame& located);
+  void begin_anew(const LatencyPrior& latency);
+  void go_on_with_latency(const LatencyPrior& latency, const LocatedFrame& frame);
   void refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise);
   std::optional<Solution> solve(const LocatedFrame& located, const JointFrame& frame);
   void learn_wandering(const Solution& solution);
@@ -79,11 +84,13 @@ class JointTracker final : public Tracker {
   NoiseClock noise_clock_;
   StreamStart stream_start_;
   LatencyWatch latency_watch_;
+  ClockWatch clock_watch_;
+  WaitingFrames waiting_;
+  VehicleTime proven_at_{};  // the last frame by which the latency was as believed
   SolutionSchedule schedule_;
   LookMaker look_maker_;
   LookMatcher look_matcher_;
   DetectionRate detection_rate_;
-  ExplainedShare explained_share_;
   ClutterRate clutter_rate_;
   KnownPointMatcher known_points_;
   TrackTable tracks_;

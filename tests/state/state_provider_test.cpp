@@ -218,12 +218,12 @@ TEST(StateProvider, CountsWhatItDoesNotUse) {
   EXPECT_EQ(provider.counters().positions, 1U);
 }
 
-/// The last 200 of each quantity are kept.
+/// The last 512 of each quantity are kept.
 TEST(StateProvider, CountsWhatIsOlderThanAllThatIsKeptOfEitherQuantity) {
   StateProvider provider(StateConfig{});
-  for (int i = 0; i < 200; ++i) {
-    provider.add(position(1.0 + 0.02 * i, 0, 20));
-    provider.add(AttitudeSample{at_s(1.0 + 0.02 * i), {}});
+  for (int i = 0; i < 512; ++i) {
+    provider.add(position(1.0 + 0.008 * i, 0, 20));
+    provider.add(AttitudeSample{at_s(1.0 + 0.008 * i), {}});
   }
   EXPECT_EQ(provider.counters().stale, 0U);
   provider.add(position(0.7, 0, 20));

@@ -260,7 +260,7 @@ TEST_F(OpeningFrames, AreSeenFromWhereTheyWereOnceTheVehiclesStateIsKnownNoMore)
   linearise_anew();
   former_state_ = state_;
   former_latency_s_ = errors_.calibration.latency_s();
-  for (double time_s = 15.0; time_s < 26.0; time_s += 0.1) report(time_s);
+  for (double time_s = 15.0; time_s < 57.2; time_s += 0.1) report(time_s);
   set_calibration({-0.03, 0.01, -0.08}, 0.37, 2.5);
   const auto is_known = [&](double time_s) { return nominal_view(time_s, 0.37, state_).has_value(); };
   EXPECT_FALSE(is_known(3.0));

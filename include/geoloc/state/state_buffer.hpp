@@ -35,7 +35,7 @@ struct Bracket {
 /// The last N samples of one quantity, ordered by time, filled asynchronously (paper, eq. 1-2). Samples may
 /// come out of order; a second sample of the same time and samples older than a full buffer are refused and
 /// counted. insert() is O(1) in order, O(N) out of order; bracket() is O(log N). Never allocates.
-template <typename T, std::size_t N = 200>
+template <typename T, std::size_t N = 512>
 class StateBuffer {
   static_assert(N >= 2, "interpolation needs two samples");
 

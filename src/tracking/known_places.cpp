@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/known_places.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "tracking/joint_frame.hpp"
+
+namespace geoloc {
+namespace {
+
+/// Looks of a shorter time share the noise of their frames.
+constexpr Duration kKnownFor = std::chrono::milliseconds{500};
+
+/// Share of a wander's 1-sigma that comes within a time.
+double wandered_since(VehicleTime then, VehicleTime now, double time_constant_s) {
+  const double ago_s = std::max(0.0, seconds(now - then));
+  return std::sqrt(1.0 - std::exp(-2.0 * ago_s / time_constant_s));
+}
+
+/// By the newest drift node there is: the frame's own is not made yet.
+FrameShift shift_of(const LocatedFrame& frame, const SharedErrorEstimate& errors) {
+  const NodeVector& drift = errors.drift.node(errors.drift.end() - 2).mean;
+  const double ground_height_m =
+      frame.projector.config().ground_height_above_home_m + frame.view.lifted_m;
+  return {errors.calibration.offset_m(), drift.head<2>(), Eigen::Vector2d::Zero(),
+          ground_height_m - errors.calibration.height_m()};
+}
+
+}  // namespace
+
+void list_places(const TrackTable& tracks, const SharedErrorEstimate& errors, const DriftConfig& drift,
+                 const LocatedFrame& frame, VehicleTime proven_at, std::vector<WatchedPlace>& places) {
+  places.clear();
+  if (errors.drift.size() == 0) return;
+  const VehicleTime now = frame.view.vehicle.time;
+  const FrameShift shift = shift_of(frame, errors);
+  for (const RestingObject& track : tracks) {
+    WatchedPlace place{shift.shown(Eigen::Vector3d(track.position_in_enu)), 0.0, 0.0,
+                       wandered_since(track.last_look, now, drift.position_time_constant_s), false};
+    place.is_known =
+        track.is_confirmed() && now - track.sums_since > kKnownFor && track.sums_since <= proven_at;
+    if (place.is_known) {
+      place.sigma_m = std::sqrt(0.5 * track.own_covariance.topLeftCorner<2, 2>().trace());
+      place.sigma_up_m = std::hypot(std::sqrt(track.own_covariance(2, 2)), drift.sigma_up_m);
+    }
+    places.push_back(place);
+  }
+}
+
+}  // namespace geoloc
