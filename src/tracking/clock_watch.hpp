@@ -13,10 +13,10 @@
 
 namespace geoloc {
 
-/// Finds out in mid-flight that a clock has stepped: frames are stamped with another latency than before. Known
-/// objects tell it with the first frame in which none of them is where it should be; which latency it is, the
-/// next seconds tell. Until then frames are best not used: they can be, later, from where they were seen.
-/// Does not allocate after construction.
+/// Finds out in mid-flight that a clock has stepped: frames are stamped with another latency than before.
+/// Known objects tell it with the first frame in which none of them is where it should be; which latency it
+/// is, the next seconds tell. Until then frames are best not used: they can be, later, from where they were
+/// seen. Does not allocate after construction.
 class ClockWatch {
  public:
   explicit ClockWatch(int most_places);

@@ -20,8 +20,8 @@ class LatencyWatch {
  public:
   LatencyWatch();
 
-  /// A frame, and what is believed of the latency. The latency that explains the last frames far better, where
-  /// there is one: the flight began with another than expected.
+  /// A frame, and what is believed of the latency. The latency that explains the last frames far better,
+  /// where there is one: the flight began with another than expected.
   std::optional<double> observe(FrameStamp stamp, const std::vector<LocatedDetection>& detections,
                                 const CalibratedViewer& viewer);
 

@@ -60,8 +60,8 @@ class PlaceFit {
   /// latency may be off. shift_m: the vehicle's wandering, as far as it is not in the places. seen: receives
   /// the places that are in view and found.
   std::optional<Tally> tally(const FrameBoxes& frame, double latency_s, double step_s,
-                             const std::vector<WatchedPlace>& places, const Eigen::Vector2d* shift_m = nullptr,
-                             SeenPlaces* seen = nullptr) const;
+                             const std::vector<WatchedPlace>& places,
+                             const Eigen::Vector2d* shift_m = nullptr, SeenPlaces* seen = nullptr) const;
 
   /// What an earlier frame's boxes say: what it shows of the ground, the later one should show as well.
   /// Nothing need be known of the ground for that, but the vehicle must turn or tilt in between.
@@ -72,10 +72,11 @@ class PlaceFit {
   int strange_boxes(const FrameBoxes& frame, double latency_s, const std::vector<WatchedPlace>& places) const;
 
   /// Whether a known place is seen that would not be if the latency was another.
-  bool tells_latency(const FrameBoxes& frame, double latency_s, const std::vector<WatchedPlace>& places) const;
+  bool tells_latency(const FrameBoxes& frame, double latency_s,
+                     const std::vector<WatchedPlace>& places) const;
 
-  /// By how much the vehicle's position would have had to wander for the frame's boxes nearest to known places
-  /// to show them.
+  /// By how much the vehicle's position would have had to wander for the frame's boxes nearest to known
+  /// places to show them.
   template <typename Use>
   void for_each_shift(const FrameBoxes& frame, double latency_s, const std::vector<WatchedPlace>& places,
                       const Use& use) const;

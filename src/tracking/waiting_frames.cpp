@@ -35,7 +35,8 @@ void WaitingFrames::drop_used() {
 
 void WaitingFrames::add(const LocatedFrame& frame, bool is_held) {
   held_ = is_held ? held_ + 1 : 0;
-  entries_[(begin_ + count_) % entries_.size()] = {frame.stamp, frame.range_m, detection_end_, frame.detections.size()};
+  entries_[(begin_ + count_) % entries_.size()] = {frame.stamp, frame.range_m, detection_end_,
+                                                   frame.detections.size()};
   ++count_;
   for (const LocatedDetection& located : frame.detections) {
     detections_[detection_end_] = located.detection;
