@@ -107,17 +107,17 @@ Sweep attitude_noise(const std::string& name, const std::string& title, double t
 }
 
 /// One value a jump; 0: none.
-Sweep jumps() {
+Sweep jumps(const std::string& name, const std::string& title, double telemetry_hz) {
   const std::vector<std::string> names = sim::state_jump_names();
-  Sweep sweep{"jumps", "Jumps of the vehicle's state", "0: none", false, {0.0}};
+  Sweep sweep{name, title, "0: none", false, {0.0}};
   for (std::size_t i = 0; i < names.size(); ++i) {
     sweep.values.push_back(static_cast<double>(i + 1));
     sweep.axis += ", " + std::to_string(i + 1) + ": " + names[i];
   }
-  sweep.flight_at = [names](const sim::Flight& flight, double value) {
+  sweep.flight_at = [names, telemetry_hz](const sim::Flight& flight, double value) {
     const auto number = static_cast<std::size_t>(value);
     const bool is_none = number == 0;
-    return sim::with_jump(flight,
+    return sim::with_jump(sim::at_telemetry_rate(flight, telemetry_hz),
                           is_none ? sim::StateJump{} : sim::state_jump(names.at(number - 1), flight.truth));
   };
   return sweep;
@@ -221,7 +221,8 @@ const std::vector<Sweep>& all_sweeps() {
                                          take_off(),
                                          attitude_noise("attitude", "Attitude noise, white", 0.0),
                                          attitude_noise("attitude-slow", "Attitude noise over 4 s", 4.0),
-                                         jumps(),
+                                         jumps("jumps", "Jumps of the vehicle's state", kTelemetryRate_hz),
+                                         jumps("jumps-slow", "The same jumps, telemetry at 2 Hz", 2.0),
                                          pairs(),
                                          misses(),
                                          clutter(),
