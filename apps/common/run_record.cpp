@@ -43,7 +43,8 @@ std::string useless_terrain(const Geolocator& geolocator) {
 std::string remarks(const Session& session) {
   std::string lines;
   for (const std::string& news :
-       {count_of_jumps(session.geolocator().state().counters()), clock_message(session)}) {
+       {count_of_jumps(session.geolocator().state().counters()), count_of_turned(session.geolocator()),
+        clock_message(session)}) {
     if (!news.empty()) lines += "\n" + news;
   }
   return lines + unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());

@@ -123,6 +123,31 @@ Sweep jumps(const std::string& name, const std::string& title, double telemetry_
   return sweep;
 }
 
+/// A survey of eighteen pictures from 60 m at 12.5 m/s, stamped exactly.
+Sweep turned_yaws() {
+  Sweep sweep{"turned-yaws",
+              "Yaws turned round",
+              "of eighteen pictures",
+              false,
+              {0.0, 1.0, 3.0, 6.0}};
+  sweep.leaves_targets_out = true;
+  const auto stills = [](double value) {
+    sim::Stills pictures;
+    pictures.turned = static_cast<int>(value);
+    return pictures;
+  };
+  sweep.flight_at = [stills](const sim::Flight& flight, double value) {
+    constexpr double kHeight_m = 60.0, kSpeed_m_s = 12.5;
+    const sim::Flight raised = sim::raised(flight, kHeight_m - kFlownHeight_m);
+    return sim::as_stills(sim::at_speed(raised, kSpeed_m_s / kFlownSpeed_m_s), stills(value));
+  };
+  sweep.apply = [stills](double value, const sim::Flight& flight, sim::RecordingSettings& settings) {
+    settings.run.frame_rate_hz = 1.0 / seconds(sim::period_of(stills(value), flight));
+    settings.run.errors.latency_s = settings.run.errors.latency_jitter_s = 0.0;
+  };
+  return sweep;
+}
+
 Sweep pairs() {
   Sweep sweep{"pairs", "Targets in pairs", "distance within a pair, m", true, {0.3, 0.5, 0.8, 1.2, 2.0, 3.0},
               1.2};
@@ -223,6 +248,7 @@ const std::vector<Sweep>& all_sweeps() {
                                          attitude_noise("attitude-slow", "Attitude noise over 4 s", 4.0),
                                          jumps("jumps", "Jumps of the vehicle's state", kTelemetryRate_hz),
                                          jumps("jumps-slow", "The same jumps, telemetry at 2 Hz", 2.0),
+                                         turned_yaws(),
                                          pairs(),
                                          misses(),
                                          clutter(),

@@ -95,6 +95,33 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
 
 void JointTracker::update(const LocatedFrame& located) {
   const JointFrame frame = begin_frame(located);
+  if (!is_turned(located, frame)) return learn(located, frame);
+  ++book_.counters.frames_turned;
+  learn(*located.turned, frame.seen_from(located.turned->view));
+}
+
+bool JointTracker::is_turned(const LocatedFrame& located, const JointFrame& frame) {
+  if (located.turned == nullptr) return false;
+  const FrameFit stated = fit(located, frame);
+  return is_doubtful(stated) &&
+         is_rather_turned(stated, fit(*located.turned, frame.seen_from(located.turned->view)));
+}
+
+/// Nothing is learnt yet.
+FrameFit JointTracker::fit(const LocatedFrame& located, const JointFrame& frame) {
+  const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
+  const Explanation& explanation = look_matcher_.try_to_explain(looks.at_rest, noise, tracks_);
+  return fit_of(looks.at_rest, explanation, frame, shift_of(frame, explanation.common_shift), config_,
+                detection_rate_.probability(), tracks_);
+}
+
+FrameShift JointTracker::shift_of(const JointFrame& frame, const Eigen::Vector2d& common_shift) const {
+  return {errors_.calibration.offset_m(), frame.drift.head<2>(), common_shift,
+          frame.ground_height_m - errors_.calibration.height_m()};
+}
+
+void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
   place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
@@ -102,8 +129,7 @@ void JointTracker::update(const LocatedFrame& located) {
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
   learn_noise(looks.at_rest, explanation);
   explained_share_.take(explanation.match_of_look);
-  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift,
-                         frame.ground_height_m - errors_.calibration.height_m()};
+  const FrameShift shift = shift_of(frame, explanation.common_shift);
 
   const bool may_be_twins = weigh_missed(looks.at_rest, frame, shift, config_, detection_rate_, tracks_);
   if (may_be_twins) schedule_.request();
@@ -164,8 +190,7 @@ void JointTracker::watch_latency(const LocatedFrame& located, const JointFrame& 
 KnownPlaces JointTracker::known_places(const LocatedFrame& located, const JointFrame& frame) const {
   KnownPlaces known;
   if (latency_watch_.is_at_start()) return known;
-  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), Eigen::Vector2d::Zero(),
-                         frame.ground_height_m - errors_.calibration.height_m()};
+  const FrameShift shift = shift_of(frame, Eigen::Vector2d::Zero());
   const auto& doubtful_since = latency_watch_.doubtful_since();
   const Duration doubt = doubtful_since ? located.stamp.captured_at_host - *doubtful_since : Duration{};
   const Duration least_age = kKnownFor + doubt;
