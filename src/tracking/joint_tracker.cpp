@@ -61,6 +61,16 @@ void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& t
   }
 }
 
+/// What an object's position is off by besides what all of them are, per axis: half of what it differs from
+/// another's by that was found at another time, since neighbours share more than that.
+double own_variance_m2(std::size_t row, const TrackTable& tracks, const ArrowheadSolver::Solution& solution,
+                       const FrameNoise& noise) {
+  const std::size_t other = (row + tracks.size() / 2) % tracks.size();
+  if (other == row) return 0.5 * tracks[row].own_covariance.topLeftCorner<2, 2>().trace();
+  return 0.25 *
+         covariance_of_difference(tracks[row], tracks[other], solution, noise).topLeftCorner<2, 2>().trace();
+}
+
 }  // namespace
 
 JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points,
@@ -308,9 +318,11 @@ NodeSpan JointTracker::cover(const VehicleState& vehicle) {
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {
   const Projector& projector = frame.projector;
   const double margin_px = kCoverMargin * projector.camera().intrinsics().height_px;
-  known_points_.cover(frame.local_frame, frame.ground, [&](const Eigen::Vector3d& point_in_enu) {
+  const auto is_covered = [&](const Eigen::Vector3d& point_in_enu) {
     return projector.sees_point(shift.shown(point_in_enu), frame.view.enu_from_camera, margin_px);
-  });
+  };
+  known_points_.cover(frame.local_frame, frame.ground, frame.view.vehicle.time, detection_rate_.probability(),
+                      is_covered);
 }
 
 void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
@@ -437,18 +449,14 @@ bool JointTracker::match_known_points(const Solution& solution, const FrameNoise
   if (known_points_.is_empty()) return false;
   known_candidates_.clear();
   double variance = 0.0, own_variance = 0.0;  // per axis, sums over the candidates
-  const RestingObject* before = nullptr;
-  for (const RestingObject& object : tracks_) {
+  for (std::size_t row = 0; row < tracks_.size(); ++row) {
+    const RestingObject& object = tracks_[row];
     const Track& track = object.track;
     if (track.hits < kHitsToCompare) continue;
     variance += 0.5 * track.position_in_enu.covariance.trace();
-    own_variance +=
-        before == nullptr
-            ? 0.5 * object.own_covariance.topLeftCorner<2, 2>().trace()
-            : 0.25 * covariance_of_difference(*before, object, solution, noise).topLeftCorner<2, 2>().trace();
+    own_variance += own_variance_m2(row, tracks_, solution, noise);
     known_candidates_.push_back(
         {track.id, object.is_confirmed(), track.class_id(), track.position_in_enu.mean});
-    before = &object;
   }
   if (known_candidates_.empty()) return false;
   const auto count = static_cast<double>(known_candidates_.size());
