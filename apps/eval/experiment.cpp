@@ -78,7 +78,8 @@ std::vector<Eigen::Vector2d> places_of(const std::vector<io::TrueTarget>& target
 }
 
 /// The target that an object is a look-alike of: a point taken for its neighbour moves all objects, so that
-/// the map as a whole must tell which one this is. It fits the targets best if moved from the object to its own.
+/// the map as a whole must tell which one this is. It fits the targets best if moved from the object to its
+/// own.
 std::size_t target_by_map(const Eigen::Vector2d& object, const std::vector<Eigen::Vector2d>& objects,
                           const std::vector<Eigen::Vector2d>& targets) {
   constexpr double kReach_m = 5.0, kFit_m = 0.5;

@@ -125,11 +125,7 @@ Sweep jumps(const std::string& name, const std::string& title, double telemetry_
 
 /// A survey of eighteen pictures from 60 m at 12.5 m/s, stamped exactly.
 Sweep turned_yaws() {
-  Sweep sweep{"turned-yaws",
-              "Yaws turned round",
-              "of eighteen pictures",
-              false,
-              {0.0, 1.0, 3.0, 6.0}};
+  Sweep sweep{"turned-yaws", "Yaws turned round", "of eighteen pictures", false, {0.0, 1.0, 3.0, 6.0}};
   sweep.leaves_targets_out = true;
   const auto stills = [](double value) {
     sim::Stills pictures;

@@ -99,7 +99,8 @@ class Geolocator::Implementation {
   void anchor_state(VehicleTime captured_at);
   FrameView lifted(FrameView nominal_view) const;
   void select(const std::vector<Detection>& detections);
-  void locate(const FrameView& from, std::vector<LocatedDetection>& found, decltype(Counters::no_fix)& no_fix) const;
+  void locate(const FrameView& from, std::vector<LocatedDetection>& found,
+              decltype(Counters::no_fix)& no_fix) const;
   LocatedFrame located_frame(const FrameStamp& stamp, const FrameView& from,
                              const std::vector<LocatedDetection>& detections) const;
   void track_either_way(const FrameStamp& stamp);
@@ -159,8 +160,8 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
 
 LocatedFrame Geolocator::Implementation::located_frame(
     const FrameStamp& stamp, const FrameView& from, const std::vector<LocatedDetection>& detections) const {
-  return {detections, projector, from, *state.local_frame(), stamp, viewer, ground,
-          range_at(from.vehicle.time)};
+  return {detections, projector, from,   *state.local_frame(),
+          stamp,      viewer,    ground, range_at(from.vehicle.time)};
 }
 
 /// As the vehicle tells its yaw, or 180 deg from it.

@@ -62,7 +62,8 @@ double HomeDatum::unusual_step_m() const {
 /// The height that departs from its own prediction is the one that was changed.
 bool HomeDatum::is_home_moved(const Heights& now, double pause_s, double step_m) const {
   if (std::abs(step_m) <= unusual_step_m()) return false;
-  if (pause_s > kLongPause_s) return usual_step_m_.samples() >= kSamplesToKnow && usual_step_m_.mean() < kOneEstimate_m;
+  if (pause_s > kLongPause_s)
+    return usual_step_m_.samples() >= kSamplesToKnow && usual_step_m_.mean() < kOneEstimate_m;
   const double by_home_m =
       std::abs(now.above_home_m - newest_->above_home_m - pause_s * above_home_rate_mps_);
   const double by_sea_m = std::abs(now.msl_m - newest_->msl_m - pause_s * msl_rate_mps_);

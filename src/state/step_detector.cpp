@@ -44,8 +44,8 @@ void StepDetector<N>::judge(const Vector& value, const std::optional<Vector>& ra
   const auto by_rate = rate && rate_ ? std::optional(expect_by_rate(*rate, pause_s)) : std::nullopt;
   const bool is_told = by_rate && trust_.is_earned();
   const Expectation& expected = is_told ? *by_rate : by_velocity;
-  const bool is_expected = usual_.samples() < kSamplesToJudge || expected.fits(value) ||
-                           (by_rate && by_rate->fits(value));
+  const bool is_expected =
+      usual_.samples() < kSamplesToJudge || expected.fits(value) || (by_rate && by_rate->fits(value));
   const Vector size = value - expected.value;
   const bool is_motion = !is_expected && is_motion_after_all(size, pause_s, expected.most);
   if (is_motion) undo_step();

@@ -9,8 +9,8 @@ namespace geoloc {
 namespace {
 
 /// Multicopters and small wings accelerate by less than 7 m/s^2, and begin to turn with less than 900
-/// deg/s^2. But a turn that begins and ends between two samples a third of a second and more apart takes no more
-/// than 140 deg/s^2 in a real quadrotor's log, and 70 in those of data/flights.
+/// deg/s^2. But a turn that begins and ends between two samples a third of a second and more apart takes no
+/// more than 140 deg/s^2 in a real quadrotor's log, and 70 in those of data/flights.
 constexpr StepLimits kHorizontal{1.0, 7.0, 7.0, 0.3, 0.005};
 constexpr StepLimits kHeight{1.0, 7.0, 7.0, 0.2, 0.02};
 constexpr StepLimits kYaw{6.0 * kRadPerDeg, 900.0 * kRadPerDeg, 150.0 * kRadPerDeg, 1.0 * kRadPerDeg, 0.02};

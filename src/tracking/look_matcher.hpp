@@ -17,7 +17,7 @@ namespace geoloc {
 struct Explanation {
   std::vector<JointAssociation::Match> match_of_look;
   Eigen::Vector2d common_shift = Eigen::Vector2d::Zero();  ///< median of looks minus their tracks [m]
-  double cost = 0.0;  ///< by try_to_explain(): JointAssociation::cost()
+  double cost = 0.0;                                       ///< by try_to_explain(): JointAssociation::cost()
 };
 
 /// Which look shows which object at rest.

@@ -36,8 +36,7 @@ FrameFit fit_of(const std::vector<Look>& looks, const Explanation& explanation, 
       fit.seen += exists;
       continue;
     }
-    const double found =
-        exists * detection_probability * chance_to_show(track, looks, frame, shift, config);
+    const double found = exists * detection_probability * chance_to_show(track, looks, frame, shift, config);
     fit.cost -= 2.0 * std::log(1.0 - found);
     fit.missed += found;
   }

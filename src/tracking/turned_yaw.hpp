@@ -12,7 +12,8 @@ namespace geoloc {
 
 /// How well the objects known so far explain a frame.
 struct FrameFit {
-  double cost = 0.0;  ///< -2 ln of the probability of its looks, and of there being no others, but for a constant
+  double cost =
+      0.0;  ///< -2 ln of the probability of its looks, and of there being no others, but for a constant
   double seen = 0.0;    ///< known objects, each as likely as it exists
   double missed = 0.0;  ///< the same that it should show
 };

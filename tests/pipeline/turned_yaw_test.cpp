@@ -25,7 +25,9 @@ constexpr double kPeriod_s = 2.0;
 Pose pose_of(int still) {
   const bool is_back = still >= kStills / 2;
   const double north_m = 8.0 * (is_back ? kStills - 1 - still : still);
-  return {{is_back ? 20.0 : 0.0, north_m, 40.0}, 0.03 * std::sin(still), 0.02 * std::cos(still),
+  return {{is_back ? 20.0 : 0.0, north_m, 40.0},
+          0.03 * std::sin(still),
+          0.02 * std::cos(still),
           is_back ? kPi : 0.0};
 }
 

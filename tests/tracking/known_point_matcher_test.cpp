@@ -99,8 +99,8 @@ TEST(KnownPoints, AreReportedWhereNoObjectIs) {
   EXPECT_EQ(known.matches()[1].status, KnownPointStatus::kNoObject);
 }
 
-/// Two stills, or half a second of a stream, whose frames share what hides an object: where nothing else stands
-/// near.
+/// Two stills, or half a second of a stream, whose frames share what hides an object: where nothing else
+/// stands near.
 TEST(KnownPoints, WaitUntilTheirObjectsWouldHaveBeenFound) {
   const std::vector<KnownPointMatcher::Candidate> candidates{{7, true, 0, {0.1, 0.0}},
                                                              {8, true, 0, {20.1, 0.0}}};

@@ -111,8 +111,8 @@ VehicleTime boot_time(std::uint32_t time_boot_ms) {
   return VehicleTime{std::chrono::milliseconds{time_boot_ms}};
 }
 
-/// Messages at `due` and each multiple of the period after it, between two recorded ones; none where the truth
-/// is not known.
+/// Messages at `due` and each multiple of the period after it, between two recorded ones; none where the
+/// truth is not known.
 template <typename Telling>
 void fill_up(const RecordedStream& stream, VehicleTime due, Duration period, const Flight& flight,
              LogBuilder& log) {
@@ -261,7 +261,8 @@ Flight as_stills(const Flight& flight, const Stills& stills) {
   const io::Tlog telemetry = told.build();
   for (const io::TlogRecord& record : telemetry.records()) {
     const auto frame = view_frame(record.frame, record.size);
-    const auto picture = std::llround(seconds(record.received_at - flight.host_time(first)) / seconds(period));
+    const auto picture =
+        std::llround(seconds(record.received_at - flight.host_time(first)) / seconds(period));
     if (frame->message_id == MAVLINK_MSG_ID_ATTITUDE && turned_until(picture + 1) > turned_until(picture)) {
       auto fields = fields_in<mavlink_attitude_t>(*frame);
       fields.yaw = static_cast<float>(wrap_to_pi(fields.yaw + kPi));
