@@ -42,8 +42,8 @@ std::string useless_terrain(const Geolocator& geolocator) {
 /// What a person should know besides the figures.
 std::string remarks(const Session& session) {
   std::string lines;
-  for (const std::string& news :
-       {count_of_jumps(session.geolocator().state().counters()), clock_message(session)}) {
+  for (const std::string& news : {count_of_jumps(session.geolocator().state().counters()),
+                                  count_of_turned(session.geolocator()), clock_message(session)}) {
     if (!news.empty()) lines += "\n" + news;
   }
   return lines + unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());

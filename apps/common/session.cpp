@@ -61,6 +61,7 @@ bool Session::process(const PendingFrame& frame) {
   frame_.time_sigma_s = time_sigma_s(frame, link_.clock());
   frame_.detections = frame.detections;
   if (!geolocator_.process(frame_)) return false;
+  news_.note_frame(geolocator_);
   history_.note(geolocator_, frame.captured_at);
   return true;
 }

@@ -41,6 +41,22 @@ void StateNews::note(const StateProvider& state) {
   steps_ = steps;
 }
 
+void StateNews::note_frame(const Geolocator& geolocator) {
+  const std::uint64_t turned = geolocator.track_counters().frames_turned;
+  if (is_first(turned, told_turned_))
+    lines_.push_back(
+        fmt::format("the yaw told for frame {} is 180 deg off, as known objects in it show: such "
+                    "frames are used turned round",
+                    geolocator.counters().frames));
+  told_turned_ = turned;
+}
+
+std::string count_of_turned(const Geolocator& geolocator) {
+  const std::uint64_t turned = geolocator.track_counters().frames_turned;
+  return turned == 0 ? ""
+                     : fmt::format("frames used turned round, since their yaw was 180 deg off: {}", turned);
+}
+
 std::string count_of_jumps(const StateProvider::Counters& counters) {
   std::string all;
   const auto add = [&all](std::uint64_t count, const char* what) {

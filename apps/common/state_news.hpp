@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "geoloc/pipeline/geolocator.hpp"
 #include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {
@@ -15,16 +16,23 @@ class StateNews {
   /// After each sample.
   void note(const StateProvider& state);
 
+  /// After each frame.
+  void note_frame(const Geolocator& geolocator);
+
   /// What is new since the last call.
   std::vector<std::string> take() { return std::exchange(lines_, {}); }
 
  private:
   StateProvider::Counters told_;  // of what a line was told, and counts since
   StateSteps steps_;
+  std::uint64_t told_turned_ = 0;
   std::vector<std::string> lines_;
 };
 
 /// A line that counts them; empty where there were none.
 std::string count_of_jumps(const StateProvider::Counters& counters);
+
+/// The same of frames whose yaw was told the wrong way round.
+std::string count_of_turned(const Geolocator& geolocator);
 
 }  // namespace geoloc::apps

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <mutex>
 
 #include "common/replay.hpp"
@@ -69,6 +70,58 @@ int known_points_used(const Session& session) {
   }));
 }
 
+std::vector<Eigen::Vector2d> places_of(const std::vector<io::TrueTarget>& targets, const LocalFrame& frame) {
+  std::vector<Eigen::Vector2d> places;
+  for (const io::TrueTarget& target : targets)
+    places.push_back(frame.to_local(target.position).position_in_enu.head<2>());
+  return places;
+}
+
+/// The target that an object is a look-alike of: a point taken for its neighbour moves all objects, so that
+/// the map as a whole must tell which one this is. It fits the targets best if moved from the object to its
+/// own.
+std::size_t target_by_map(const Eigen::Vector2d& object, const std::vector<Eigen::Vector2d>& objects,
+                          const std::vector<Eigen::Vector2d>& targets) {
+  constexpr double kReach_m = 5.0, kFit_m = 0.5;
+  std::size_t best = targets.size();
+  double best_misfit_m2 = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Eigen::Vector2d shift = targets[i] - object;
+    if (shift.norm() > kReach_m) continue;
+    double misfit_m2 = 0.0;
+    for (const Eigen::Vector2d& other : objects) {
+      double nearest_m2 = kFit_m * kFit_m;
+      for (const Eigen::Vector2d& target : targets)
+        nearest_m2 = std::min(nearest_m2, (other + shift - target).squaredNorm());
+      misfit_m2 += nearest_m2;
+    }
+    if (misfit_m2 < best_misfit_m2) best = i;
+    best_misfit_m2 = std::min(best_misfit_m2, misfit_m2);
+  }
+  return best;
+}
+
+int known_points_mistaken(const Session& session, const Survey& survey) {
+  if (survey.points.empty() || !session.geolocator().local_frame()) return 0;
+  std::vector<io::TrueTarget> all = survey.told;
+  all.insert(all.end(), survey.others.begin(), survey.others.end());
+  const auto targets = places_of(all, *session.geolocator().local_frame());
+  std::vector<Eigen::Vector2d> objects;
+  for (const Track& track : session.geolocator().tracks()) {
+    if (track.status == TrackStatus::kConfirmed) objects.push_back(track.position_in_enu.mean);
+  }
+  int mistaken = 0;
+  const auto& entries = session.geolocator().known_points();
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i].status != KnownPointStatus::kMatched) continue;
+    for (const Track& track : session.geolocator().tracks()) {
+      if (track.id == entries[i].track_id)
+        mistaken += target_by_map(track.position_in_enu.mean, objects, targets) == i ? 0 : 1;
+    }
+  }
+  return mistaken;
+}
+
 void run_task(const Experiment& experiment, const Task& task, std::vector<RunResult>& results) {
   sim::RecordingSettings settings = experiment.recording;
   settings.run.scenario = task.scenario;
@@ -124,6 +177,7 @@ RunResult run_method(const SimulatedRun& run, const Contender& contender, Estima
   result.heights = score_heights_of_run(session, survey.others, result.score, told);
   result.nees = mean_nees_of_run(session, survey.others, result.score, told);
   result.known_points_used = known_points_used(session);
+  result.known_points_mistaken = known_points_mistaken(session, survey);
   result.calibration = calibration_error(session, run.settings, run.flight);
   return result;
 }

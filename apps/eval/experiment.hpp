@@ -65,6 +65,7 @@ struct RunResult {
   std::optional<HeightScore> heights;  ///< where the method estimates them
   double nees = 0.0;                   ///< mean over the objects found; 2 is right
   int known_points_used = 0;
+  int known_points_mistaken = 0;  ///< used, and taken for another target
   std::optional<CalibrationError> calibration;
 };
 

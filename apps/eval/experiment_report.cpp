@@ -150,6 +150,7 @@ nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
                      run.heights ? nlohmann::ordered_json(run.heights->relative_rmse_m) : nullptr},
                     {"nees", run.nees},
                     {"known_points_used", run.known_points_used},
+                    {"known_points_mistaken", run.known_points_mistaken},
                     {"calibration_error", to_json(run.calibration)}});
   }
   auto summaries = nlohmann::ordered_json::array();

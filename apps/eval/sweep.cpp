@@ -107,18 +107,39 @@ Sweep attitude_noise(const std::string& name, const std::string& title, double t
 }
 
 /// One value a jump; 0: none.
-Sweep jumps() {
+Sweep jumps(const std::string& name, const std::string& title, double telemetry_hz) {
   const std::vector<std::string> names = sim::state_jump_names();
-  Sweep sweep{"jumps", "Jumps of the vehicle's state", "0: none", false, {0.0}};
+  Sweep sweep{name, title, "0: none", false, {0.0}};
   for (std::size_t i = 0; i < names.size(); ++i) {
     sweep.values.push_back(static_cast<double>(i + 1));
     sweep.axis += ", " + std::to_string(i + 1) + ": " + names[i];
   }
-  sweep.flight_at = [names](const sim::Flight& flight, double value) {
+  sweep.flight_at = [names, telemetry_hz](const sim::Flight& flight, double value) {
     const auto number = static_cast<std::size_t>(value);
     const bool is_none = number == 0;
-    return sim::with_jump(flight,
+    return sim::with_jump(sim::at_telemetry_rate(flight, telemetry_hz),
                           is_none ? sim::StateJump{} : sim::state_jump(names.at(number - 1), flight.truth));
+  };
+  return sweep;
+}
+
+/// A survey of eighteen pictures from 60 m at 12.5 m/s, stamped exactly.
+Sweep turned_yaws() {
+  Sweep sweep{"turned-yaws", "Yaws turned round", "of eighteen pictures", false, {0.0, 1.0, 3.0, 6.0}};
+  sweep.leaves_targets_out = true;
+  const auto stills = [](double value) {
+    sim::Stills pictures;
+    pictures.turned = static_cast<int>(value);
+    return pictures;
+  };
+  sweep.flight_at = [stills](const sim::Flight& flight, double value) {
+    constexpr double kHeight_m = 60.0, kSpeed_m_s = 12.5;
+    const sim::Flight raised = sim::raised(flight, kHeight_m - kFlownHeight_m);
+    return sim::as_stills(sim::at_speed(raised, kSpeed_m_s / kFlownSpeed_m_s), stills(value));
+  };
+  sweep.apply = [stills](double value, const sim::Flight& flight, sim::RecordingSettings& settings) {
+    settings.run.frame_rate_hz = 1.0 / seconds(sim::period_of(stills(value), flight));
+    settings.run.errors.latency_s = settings.run.errors.latency_jitter_s = 0.0;
   };
   return sweep;
 }
@@ -221,7 +242,9 @@ const std::vector<Sweep>& all_sweeps() {
                                          take_off(),
                                          attitude_noise("attitude", "Attitude noise, white", 0.0),
                                          attitude_noise("attitude-slow", "Attitude noise over 4 s", 4.0),
-                                         jumps(),
+                                         jumps("jumps", "Jumps of the vehicle's state", kTelemetryRate_hz),
+                                         jumps("jumps-slow", "The same jumps, telemetry at 2 Hz", 2.0),
+                                         turned_yaws(),
                                          pairs(),
                                          misses(),
                                          clutter(),

@@ -74,6 +74,7 @@ class Geolocator::Implementation {
         tracker(make_tracker(config)) {
     selected_.reserve(config.max_detections);
     located.reserve(config.max_detections);
+    turned_located_.reserve(config.max_detections);
   }
 
   Expected<VehicleState, NoState> vehicle_at(VehicleTime captured_at) const {
@@ -96,14 +97,21 @@ class Geolocator::Implementation {
  private:
   std::optional<double> range_at(VehicleTime time) const;
   void anchor_state(VehicleTime captured_at);
-  void lift(FrameView nominal_view);
+  FrameView lifted(FrameView nominal_view) const;
   void select(const std::vector<Detection>& detections);
-  void locate();
+  void locate(const FrameView& from, std::vector<LocatedDetection>& found,
+              decltype(Counters::no_fix)& no_fix) const;
+  LocatedFrame located_frame(const FrameStamp& stamp, const FrameView& from,
+                             const std::vector<LocatedDetection>& detections) const;
+  void track_either_way(const FrameStamp& stamp);
+  bool may_be_turned(const FrameStamp& stamp);
 
   StateBuffer<double> ranges_;
   std::uint64_t reboots_ = 0;  // when ranges_ was begun
   bool has_object_ = false;    // a confirmed one
   std::vector<Detection> selected_;
+  std::optional<HostTime> last_frame_;
+  std::vector<LocatedDetection> turned_located_;  // scratch of track_either_way
 };
 
 /// A reboot sets the vehicle's clock back.
@@ -139,19 +147,53 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
   ++counters.frames_located;
   if (config.terrain && ground.is_level())
     ground = GroundModel(config.terrain, *state.local_frame(), config.joint.sigma_ground_m);
-  lift(*nominal_view);
+  view = lifted(*nominal_view);
   select(frame.detections);
-  locate();
-  tracker->update(
-      {located, projector, view, *state.local_frame(), stamp, viewer, ground, range_at(view.vehicle.time)});
+  locate(view, located, counters.no_fix);
+  if (may_be_turned(stamp)) {
+    track_either_way(stamp);
+  } else {
+    tracker->update(located_frame(stamp, view, located));
+  }
   return true;
 }
 
+LocatedFrame Geolocator::Implementation::located_frame(
+    const FrameStamp& stamp, const FrameView& from, const std::vector<LocatedDetection>& detections) const {
+  return {detections, projector, from,   *state.local_frame(),
+          stamp,      viewer,    ground, range_at(from.vehicle.time)};
+}
+
+/// As the vehicle tells its yaw, or 180 deg from it.
+void Geolocator::Implementation::track_either_way(const FrameStamp& stamp) {
+  FrameStamp turned_stamp = stamp;
+  turned_stamp.is_turned = true;
+  const auto nominal_view = viewer.nominal_view(turned_stamp, tracker->calibration().latency_s());
+  const FrameView turned_view = nominal_view ? lifted(*nominal_view) : view;
+  decltype(Counters::no_fix) unused{};
+  locate(turned_view, turned_located_, unused);
+  const LocatedFrame turned = located_frame(turned_stamp, turned_view, turned_located_);
+  LocatedFrame stated = located_frame(stamp, view, located);
+  stated.turned = &turned;
+  const std::uint64_t before = tracker->counters().frames_turned;
+  tracker->update(stated);
+  if (tracker->counters().frames_turned == before) return;
+  view = turned_view;
+  located.swap(turned_located_);
+}
+
+/// Within a second no vehicle turns round unseen.
+bool Geolocator::Implementation::may_be_turned(const FrameStamp& stamp) {
+  constexpr Duration kUnseen = std::chrono::seconds{1};
+  const auto before = std::exchange(last_frame_, stamp.captured_at_host);
+  return config.method == Method::kJoint && before && stamp.captured_at_host - *before >= kUnseen;
+}
+
 /// The joint method's rays meet a level plane at the height of the ground below the vehicle.
-void Geolocator::Implementation::lift(FrameView nominal_view) {
+FrameView Geolocator::Implementation::lifted(FrameView nominal_view) const {
   const Eigen::Vector3d& camera = nominal_view.enu_from_camera.translation;
   if (config.method == Method::kJoint) nominal_view.terrain_m = ground.height_m(camera.head<2>());
-  view = calibrated(nominal_view, tracker->calibration(),
+  return calibrated(nominal_view, tracker->calibration(),
                     tracker->lift_m(reported_height_m(nominal_view, config.projector)));
 }
 
@@ -186,16 +228,17 @@ void Geolocator::Implementation::select(const std::vector<Detection>& detections
   counters.detections += selected_.size();
 }
 
-void Geolocator::Implementation::locate() {
-  located.clear();
+void Geolocator::Implementation::locate(const FrameView& from, std::vector<LocatedDetection>& found,
+                                        decltype(Counters::no_fix)& no_fix) const {
+  found.clear();
   for (const Detection& detection : selected_) {
     const auto fix = config.method == Method::kJoint
-                         ? projector.project(detection.box.centre(), view.enu_from_camera)
-                         : projector.project(detection.box.centre(), view.enu_from_camera, ground);
+                         ? projector.project(detection.box.centre(), from.enu_from_camera)
+                         : projector.project(detection.box.centre(), from.enu_from_camera, ground);
     if (fix) {
-      located.push_back({detection, *fix});
+      found.push_back({detection, *fix});
     } else {
-      ++counters.no_fix[static_cast<std::size_t>(fix.error())];
+      ++no_fix[static_cast<std::size_t>(fix.error())];
     }
   }
 }

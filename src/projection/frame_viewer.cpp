@@ -4,11 +4,21 @@
 #include "projection/camera_pose.hpp"
 
 namespace geoloc {
+namespace {
+
+VehicleState turned_round(VehicleState vehicle) {
+  const Eigen::Quaterniond half_a_turn(0.0, 0.0, 0.0, 1.0);  // about the vertical
+  vehicle.enu_from_body.rotation = half_a_turn * vehicle.enu_from_body.rotation;
+  return vehicle;
+}
+
+}  // namespace
 
 Expected<FrameView, NoState> FrameViewer::nominal_view(FrameStamp stamp, double latency_s) const {
-  const auto vehicle = state.at(stamp.captured_at - from_seconds(latency_s));
-  if (!vehicle) return vehicle.error();
-  return FrameView{*vehicle, enu_from_camera(*vehicle, mount, orientation), stamp.captured_at_host, 0.0,
+  const auto told = state.at(stamp.captured_at - from_seconds(latency_s));
+  if (!told) return told.error();
+  const VehicleState vehicle = stamp.is_turned ? turned_round(*told) : *told;
+  return FrameView{vehicle, enu_from_camera(vehicle, mount, orientation), stamp.captured_at_host, 0.0,
                    latency_s};
 }
 

@@ -7,10 +7,9 @@
 namespace geoloc {
 namespace {
 
-/// The heights' difference steps by less than that without meaning anything, or by so many times what it
-/// usually does: some vehicles take the two heights from different sensors.
+/// The heights' difference steps by less than that without meaning anything, or by what is usual: some
+/// vehicles take the two heights from different sensors.
 constexpr double kLeastStep_m = 0.3;
-constexpr double kUnusual = 6.0;
 /// Rates from before a longer pause predict nothing. What then tells the home's step is that the difference
 /// was constant to this much, over so many samples: both heights come from one estimate.
 constexpr double kLongPause_s = 2.0;
@@ -57,13 +56,14 @@ double HomeDatum::follow(const Heights& now) {
 }
 
 double HomeDatum::unusual_step_m() const {
-  return std::max(kLeastStep_m, kUnusual * usual_step_m_);
+  return std::max(kLeastStep_m, usual_step_m_.most());
 }
 
 /// The height that departs from its own prediction is the one that was changed.
 bool HomeDatum::is_home_moved(const Heights& now, double pause_s, double step_m) const {
   if (std::abs(step_m) <= unusual_step_m()) return false;
-  if (pause_s > kLongPause_s) return samples_ >= kSamplesToKnow && usual_step_m_ < kOneEstimate_m;
+  if (pause_s > kLongPause_s)
+    return usual_step_m_.samples() >= kSamplesToKnow && usual_step_m_.mean() < kOneEstimate_m;
   const double by_home_m =
       std::abs(now.above_home_m - newest_->above_home_m - pause_s * above_home_rate_mps_);
   const double by_sea_m = std::abs(now.msl_m - newest_->msl_m - pause_s * msl_rate_mps_);
@@ -72,12 +72,9 @@ bool HomeDatum::is_home_moved(const Heights& now, double pause_s, double step_m)
 
 void HomeDatum::go_on(const Heights& now, double pause_s, double step_m) {
   if (newest_) {
-    constexpr double kSlowest = 0.05;
     above_home_rate_mps_ = (now.above_home_m - newest_->above_home_m) / pause_s;
     msl_rate_mps_ = (now.msl_m - newest_->msl_m) / pause_s;
-    ++samples_;
-    const double gain = std::max(kSlowest, 1.0 / samples_);
-    usual_step_m_ += gain * (std::min(std::abs(step_m), unusual_step_m()) - usual_step_m_);
+    usual_step_m_.learn(std::abs(step_m), unusual_step_m());
   }
   newest_ = now;
 }

@@ -109,7 +109,7 @@ void StateProvider::add(const AttitudeSample& sample) {
     return;
   }
   if (!accept_stamp(sample.time)) return;
-  auto steps = watch_.observe(sample.time, sample.angles);
+  auto steps = watch_.observe(sample);
   if (!steps) steps = steps_around(sample.time, attitudes_, watch_.steps_of_attitude());
   if (!steps) {
     ++counters_.stale;
@@ -138,7 +138,7 @@ void StateProvider::add(const PositionSample& sample) {
   position.position_in_enu << local.position_in_enu,
       home_.above_first_home_m(sample.time, sample.height_above_home_m, sample.height_msl_m);
   position.convergence_rad = local.convergence_rad;
-  auto steps = watch_.observe(sample.time, position.position_in_enu);
+  auto steps = watch_.observe(sample.time, position.position_in_enu, sample.velocity_in_enu);
   if (!steps) steps = steps_around(sample.time, positions_, watch_.steps_of_position());
   if (!steps) {
     ++counters_.stale;

@@ -13,8 +13,6 @@ namespace {
 
 /// Objects not known yet stand one to 100 m^2 where nothing else is said.
 constexpr double kUsualDensityOfNew = 0.01;
-/// Explanations tried of one frame.
-constexpr std::size_t kMostHypotheses = 32;
 /// A look may as well be of something new where leaving it alone costs less than this more: less than the
 /// ambiguity between two tracks, since for want of a look a new object is begun and may be merged later.
 constexpr double kAmbiguityAlone = 2.0;
@@ -43,7 +41,7 @@ Eigen::Matrix2d prior_covariance(const Pairing& pairing) {
 
 }  // namespace
 
-JointAssociation::JointAssociation(int max_looks, int max_tracks) {
+JointAssociation::JointAssociation(int max_looks, int max_tracks, std::size_t most_explanations) {
   pairings_.reserve(kPairingsPerLook * max_looks);
   pairings_of_look_.reserve(max_looks);
   least_cost_of_look_.reserve(max_looks);
@@ -54,7 +52,7 @@ JointAssociation::JointAssociation(int max_looks, int max_tracks) {
   costs_.resize(max_looks, max_tracks);
   pairing_at_.resize(max_looks, max_tracks);
   assignment_.reserve(max_looks, max_tracks);
-  hypotheses_.resize(kMostHypotheses);
+  hypotheses_.resize(most_explanations);
   for (Hypothesis& hypothesis : hypotheses_) hypothesis.pairing_of_look.reserve(max_looks);
   matches_.reserve(max_looks);
 }
@@ -124,13 +122,13 @@ bool JointAssociation::is_plain() const {
          std::none_of(pairings_of_column_.begin(), pairings_of_column_.end(), has_choice);
 }
 
-void JointAssociation::assign(const Posterior& posterior, std::size_t look_left_alone,
+void JointAssociation::assign(const Posterior& posterior, const Held& held,
                               std::vector<std::size_t>& pairing_of_look) {
   auto costs = costs_.topLeftCorner(pairings_of_look_.size(), track_of_column_.size());
   costs.setConstant(gate_);
   for (std::size_t p = 0; p < pairings_.size(); ++p) {
     const Pairing& pairing = pairings_[p];
-    if (pairing.look == look_left_alone) continue;
+    if (held.excludes(pairing)) continue;
     const std::size_t column = column_of_track_[pairing.track];
     costs(pairing.look, column) = mahalanobis_squared(pairing.residual - pairing.jacobian * posterior.mean,
                                                       residual_covariance(pairing, posterior.covariance)) +
@@ -145,13 +143,13 @@ void JointAssociation::assign(const Posterior& posterior, std::size_t look_left_
   }
 }
 
-void JointAssociation::explain(const Pairing* start, std::size_t look_left_alone) {
-  if (hypothesis_count_ == kMostHypotheses) return;
+void JointAssociation::explain(const Pairing* start, const Held& held) {
+  if (hypothesis_count_ == hypotheses_.size()) return;
   Hypothesis& hypothesis = hypotheses_[hypothesis_count_++];
   Posterior posterior;
   if (start != nullptr) posterior.add(*start);
   for (int round = 0; round < kRounds; ++round) {
-    assign(posterior, look_left_alone, hypothesis.pairing_of_look);
+    assign(posterior, held, hypothesis.pairing_of_look);
     posterior = Posterior{};
     for (const std::size_t pairing : hypothesis.pairing_of_look) {
       if (pairing != kNone) posterior.add(pairings_[pairing]);
@@ -162,7 +160,7 @@ void JointAssociation::explain(const Pairing* start, std::size_t look_left_alone
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
     if (hypothesis.pairing_of_look[look] == kNone) hypothesis.cost += cost_alone_of_look_[look];
   }
-  if (look_left_alone != kNone) hypothesis.cost += ambiguity_ - kAmbiguityAlone;
+  if (held.look_left_alone != kNone) hypothesis.cost += ambiguity_ - kAmbiguityAlone;
 }
 
 /// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.
@@ -173,11 +171,14 @@ void JointAssociation::try_other_explanations(Starts starts) {
     const bool is_held = std::any_of(hypotheses_.begin(), end, [&](const Hypothesis& hypothesis) {
       return hypothesis.pairing_of_look[look] == p;
     });
-    if (starts == Starts::kEveryPairing || (pairings_of_look_[look] > 1 && !is_held))
-      explain(&pairings_[p], kNone);
+    if (starts == Starts::kEveryPairing) {
+      explain(&pairings_[p], {kNone, &pairings_[p]});
+    } else if (pairings_of_look_[look] > 1 && !is_held) {
+      explain(&pairings_[p], {});
+    }
   }
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
-    if (is_doubtful(look)) explain(nullptr, look);
+    if (is_doubtful(look)) explain(nullptr, {look, nullptr});
   }
 }
 
@@ -231,7 +232,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
     for (const Pairing& pairing : pairings_) matches_[pairing.look] = match_of(pairing);
     return matches_;
   }
-  explain(nullptr, kNone);
+  explain(nullptr, {});
   try_other_explanations(Starts::kAmbiguousLooks);
   report_best();
   return matches_;
@@ -239,7 +240,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
 
 const std::vector<JointAssociation::Match>& JointAssociation::solve_thoroughly() {
   matches_.assign(pairings_of_look_.size(), Match{});
-  explain(nullptr, kNone);
+  explain(nullptr, {});
   try_other_explanations(Starts::kEveryPairing);
   report_best();
   return matches_;

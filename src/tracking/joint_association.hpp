@@ -40,7 +40,8 @@ class JointAssociation {
     bool is_certain() const { return track && !is_ambiguous; }
   };
 
-  JointAssociation(int max_looks, int max_tracks);
+  /// most_explanations: tried of one frame.
+  JointAssociation(int max_looks, int max_tracks, std::size_t most_explanations = 32);
 
   /// A new frame. gate: squared Mahalanobis distance at which a look is rather left alone; ambiguity: as much
   /// worse, in the same units, an explanation may be to be held possible.
@@ -58,7 +59,8 @@ class JointAssociation {
   /// One match per look. Where no look has a choice, each goes to its track, which is a good deal faster.
   const std::vector<Match>& solve();
 
-  /// The same, but looks must agree also where none has a choice.
+  /// The same, but looks must agree also where none has a choice, and of each pair the best explanation that
+  /// holds it is compared.
   const std::vector<Match>& solve_thoroughly();
 
   /// Pairs within the gate, in the order they were added.
@@ -92,9 +94,19 @@ class JointAssociation {
 
   bool is_doubtful(std::size_t look) const;
   bool is_plain() const;
-  void explain(const Pairing* start, std::size_t look_left_alone);
-  void assign(const Posterior& posterior, std::size_t look_left_alone,
-              std::vector<std::size_t>& pairing_of_look);
+  /// What an explanation is to hold, whatever fits better.
+  struct Held {
+    std::size_t look_left_alone = kNone;
+    const Pairing* pairing = nullptr;
+
+    bool excludes(const Pairing& other) const {
+      return other.look == look_left_alone ||
+             (pairing != nullptr && other.look == pairing->look && other.track != pairing->track);
+    }
+  };
+
+  void explain(const Pairing* start, const Held& held);
+  void assign(const Posterior& posterior, const Held& held, std::vector<std::size_t>& pairing_of_look);
   void try_other_explanations(Starts starts);
   void report_best();
   std::optional<std::size_t> track_of(const Hypothesis& hypothesis, std::size_t look) const;

@@ -60,6 +60,11 @@ struct JointFrame {
   RunTimeError run_time = {};
 
   VehicleTime time() const { return view.vehicle.time; }
+
+  /// The same frame, were that its view.
+  JointFrame seen_from(const FrameView& other) const {
+    return {projector, other, span, drift, repetition, ground_height_m, clutter_per_frame, run_time};
+  }
 };
 
 /// How far places stand from where the present frame shows them.

@@ -52,6 +52,16 @@ void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& t
   }
 }
 
+/// What an object's position is off by besides what all of them are, per axis: half of what it differs from
+/// another's by that was found at another time, since neighbours share more than that.
+double own_variance_m2(std::size_t row, const TrackTable& tracks, const ArrowheadSolver::Solution& solution,
+                       const FrameNoise& noise) {
+  const std::size_t other = (row + tracks.size() / 2) % tracks.size();
+  if (other == row) return 0.5 * tracks[row].own_covariance.topLeftCorner<2, 2>().trace();
+  return 0.25 *
+         covariance_of_difference(tracks[row], tracks[other], solution, noise).topLeftCorner<2, 2>().trace();
+}
+
 }  // namespace
 
 JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points,
@@ -118,14 +128,40 @@ void JointTracker::process_next(const LocatedFrame& newest) {
 
 void JointTracker::process(const LocatedFrame& located) {
   const JointFrame frame = begin_frame(located);
+  if (!is_turned(located, frame)) return learn(located, frame);
+  ++book_.counters.frames_turned;
+  learn(*located.turned, frame.seen_from(located.turned->view));
+}
+
+bool JointTracker::is_turned(const LocatedFrame& located, const JointFrame& frame) {
+  if (located.turned == nullptr) return false;
+  const FrameFit stated = fit(located, frame);
+  return is_doubtful(stated) &&
+         is_rather_turned(stated, fit(*located.turned, frame.seen_from(located.turned->view)));
+}
+
+/// Nothing is learnt yet.
+FrameFit JointTracker::fit(const LocatedFrame& located, const JointFrame& frame) {
+  const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
+  const Explanation& explanation = look_matcher_.try_to_explain(looks.at_rest, noise, tracks_);
+  return fit_of(looks.at_rest, explanation, frame, shift_of(frame, explanation.common_shift), config_,
+                detection_rate_.probability(), tracks_);
+}
+
+FrameShift JointTracker::shift_of(const JointFrame& frame, const Eigen::Vector2d& common_shift) const {
+  return {errors_.calibration.offset_m(), frame.drift.head<2>(), common_shift,
+          frame.ground_height_m - errors_.calibration.height_m()};
+}
+
+void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
   place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
   learn_noise(looks.at_rest, explanation);
-  const FrameShift shift{errors_.calibration.offset_m(), frame.drift.head<2>(), explanation.common_shift,
-                         frame.ground_height_m - errors_.calibration.height_m()};
+  const FrameShift shift = shift_of(frame, explanation.common_shift);
 
   const bool may_be_twins = weigh_missed(looks.at_rest, frame, shift, config_, detection_rate_, tracks_);
   if (may_be_twins) schedule_.request();
@@ -291,9 +327,11 @@ NodeSpan JointTracker::cover(const VehicleState& vehicle) {
 void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShift& shift) {
   const Projector& projector = frame.projector;
   const double margin_px = kCoverMargin * projector.camera().intrinsics().height_px;
-  known_points_.cover(frame.local_frame, frame.ground, [&](const Eigen::Vector3d& point_in_enu) {
+  const auto is_covered = [&](const Eigen::Vector3d& point_in_enu) {
     return projector.sees_point(shift.shown(point_in_enu), frame.view.enu_from_camera, margin_px);
-  });
+  };
+  known_points_.cover(frame.local_frame, frame.ground, frame.view.vehicle.time, detection_rate_.probability(),
+                      is_covered);
 }
 
 void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
@@ -420,18 +458,14 @@ bool JointTracker::match_known_points(const Solution& solution, const FrameNoise
   if (known_points_.is_empty()) return false;
   known_candidates_.clear();
   double variance = 0.0, own_variance = 0.0;  // per axis, sums over the candidates
-  const RestingObject* before = nullptr;
-  for (const RestingObject& object : tracks_) {
+  for (std::size_t row = 0; row < tracks_.size(); ++row) {
+    const RestingObject& object = tracks_[row];
     const Track& track = object.track;
     if (track.hits < kHitsToCompare) continue;
     variance += 0.5 * track.position_in_enu.covariance.trace();
-    own_variance +=
-        before == nullptr
-            ? 0.5 * object.own_covariance.topLeftCorner<2, 2>().trace()
-            : 0.25 * covariance_of_difference(*before, object, solution, noise).topLeftCorner<2, 2>().trace();
+    own_variance += own_variance_m2(row, tracks_, solution, noise);
     known_candidates_.push_back(
         {track.id, object.is_confirmed(), track.class_id(), track.position_in_enu.mean});
-    before = &object;
   }
   if (known_candidates_.empty()) return false;
   const auto count = static_cast<double>(known_candidates_.size());

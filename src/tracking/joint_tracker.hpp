@@ -22,6 +22,7 @@
 #include "tracking/solution_schedule.hpp"
 #include "tracking/track_table.hpp"
 #include "tracking/tracker.hpp"
+#include "tracking/turned_yaw.hpp"
 #include "tracking/waiting_frames.hpp"
 
 namespace geoloc {
@@ -57,6 +58,10 @@ class JointTracker final : public Tracker {
   void bound_height(const Projector& projector, const FrameView& view);
   JointFrame begin_frame(const LocatedFrame& frame);
   void learn_noise(const std::vector<Look>& looks, const Explanation& explanation);
+  void learn(const LocatedFrame& located, const JointFrame& frame);
+  bool is_turned(const LocatedFrame& located, const JointFrame& frame);
+  FrameFit fit(const LocatedFrame& located, const JointFrame& frame);
+  FrameShift shift_of(const JointFrame& frame, const Eigen::Vector2d& common_shift) const;
   NodeSpan cover(const VehicleState& vehicle);
   void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
   void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,

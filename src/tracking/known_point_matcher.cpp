@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/known_point_matcher.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "geoloc/geometry/angles.hpp"
 #include "settings/field_checker.hpp"
 #include "tracking/known_point_fields.hpp"
 
 namespace geoloc {
 namespace {
 
-/// After so many frames that looked there an object would have been found: until then the object of a point
-/// may be one not seen yet, and a neighbour be taken for it.
-constexpr int kFramesToFind = 20;
+/// What hides an object from one frame hides it from those that follow within a second.
+constexpr double kIndependent_s = 1.0;
+/// However often the camera looked there: a few points in a thousand have no object (any more), or one that
+/// the detector does not know, or that is lost for a while.
+constexpr double kGone = 3e-3;
+/// Objects stand so thick about a point as they do within so far of it, and not less than one to 100 m^2.
+constexpr double kAround_m = 5.0, kLeastDensity = 0.01;
+/// One for each object that it may be, and that it is none; bounded, since each takes an assignment.
+constexpr std::size_t kExplanationsPerPoint = 17, kMostExplanations = 200;
+/// In a thousand points one may be taken for another's object that stands where its own was not seen
+/// (2 ln 1000).
+constexpr double kCertainty = 13.8;
+/// What JointAssociation takes for doubt whether something is new, in the same units as the ambiguity.
+constexpr double kDoubtOfNew = 2.0;
 
 }  // namespace
 
@@ -23,15 +37,34 @@ KnownPointMatcher::KnownPointMatcher(std::vector<KnownPoint> points, int max_tra
     : points_(std::move(points)),
       entries_(points_.size()),
       matches_(points_.size()),
-      association_(static_cast<int>(points_.size()), points_.empty() ? 0 : max_tracks) {
+      association_(static_cast<int>(points_.size()), points_.empty() ? 0 : max_tracks,
+                   std::min(kMostExplanations, 1 + kExplanationsPerPoint * points_.size())) {
   open_.reserve(points_.size());
+}
+
+/// A first frame says all that a look can say.
+void KnownPointMatcher::look_at(Entry& entry, VehicleTime now, double found) {
+  const double pause_s = entry.covered_at ? seconds(now - *entry.covered_at) : kIndependent_s;
+  const double share = std::clamp(pause_s / kIndependent_s, 0.0, 1.0);
+  entry.unseen *= std::pow(1.0 - found, share);
+  entry.covered_at = now;
+}
+
+/// Of objects that may stand there while the point's own was not seen, times what asks for that certainty.
+double KnownPointMatcher::density_of_others(std::size_t open,
+                                            const std::vector<Candidate>& candidates) const {
+  const Entry& entry = entries_[open_[open]];
+  const auto around = std::count_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
+    return (candidate.position_in_enu - entry.on_ground_in_enu->head<2>()).norm() < kAround_m;
+  });
+  const double density = std::max(kLeastDensity, static_cast<double>(around) / (kPi * kAround_m * kAround_m));
+  return density * std::max(entry.unseen, kGone) * std::exp(0.5 * (kCertainty - kDoubtOfNew));
 }
 
 void KnownPointMatcher::list_open() {
   open_.clear();
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (matches_[i].status != KnownPointStatus::kMatched && entries_[i].frames_covered >= kFramesToFind)
-      open_.push_back(i);
+    if (matches_[i].status != KnownPointStatus::kMatched && entries_[i].covered_at) open_.push_back(i);
   }
 }
 
@@ -58,7 +91,10 @@ bool KnownPointMatcher::match(const std::vector<Candidate>& candidates, const Si
   list_open();
   if (open_.empty()) return false;
   association_.begin(open_.size(), gate, ambiguity);
-  for (std::size_t i = 0; i < open_.size(); ++i) add_pairings(i, candidates, sigma);
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    association_.expect_new(i, density_of_others(i, candidates));
+    add_pairings(i, candidates, sigma);
+  }
   const auto& matches = association_.solve_thoroughly();
   bool is_new = false;
   for (std::size_t i = 0; i < open_.size(); ++i) {
@@ -81,7 +117,11 @@ void KnownPointMatcher::rename(std::uint64_t gone, std::uint64_t kept) {
 }
 
 void KnownPointMatcher::forget(std::uint64_t track_id) {
-  if (const auto point = point_of(track_id)) matches_[*point].status = KnownPointStatus::kNotCovered;
+  const auto point = point_of(track_id);
+  if (!point) return;
+  matches_[*point].status = KnownPointStatus::kNotCovered;
+  entries_[*point].unseen = 1.0;  // from now on
+  entries_[*point].covered_at.reset();
 }
 
 std::optional<std::size_t> KnownPointMatcher::point_of(std::uint64_t track_id) const {

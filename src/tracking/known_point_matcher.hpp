@@ -8,6 +8,7 @@
 
 #include "calibration/landmark.hpp"
 #include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/geometry/time.hpp"
 #include "geoloc/projection/ground_model.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "tracking/joint_association.hpp"
@@ -54,16 +55,17 @@ class KnownPointMatcher {
 
   bool is_empty() const { return points_.empty(); }
 
-  /// Counts the points that a frame covers. `is_covered(point_in_enu)` tells whether the camera looks at a
-  /// place on the ground and away from the image's edge.
+  /// Notes the points that a frame covers. `is_covered(point_in_enu)` tells whether the camera looks at a
+  /// place on the ground and away from the image's edge; an object there is found with that probability.
   template <typename IsCovered>
-  void cover(const LocalFrame& frame, const GroundModel& ground, const IsCovered& is_covered) {
+  void cover(const LocalFrame& frame, const GroundModel& ground, VehicleTime now, double found,
+             const IsCovered& is_covered) {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (!entries_[i].on_ground_in_enu) {
         const Eigen::Vector2d place = frame.to_local(points_[i].position).position_in_enu;
         entries_[i].on_ground_in_enu = {place.x(), place.y(), ground.height_m(place)};
       }
-      if (is_covered(*entries_[i].on_ground_in_enu)) ++entries_[i].frames_covered;
+      if (is_covered(*entries_[i].on_ground_in_enu)) look_at(entries_[i], now, found);
     }
   }
 
@@ -84,11 +86,14 @@ class KnownPointMatcher {
  private:
   struct Entry {
     std::optional<Eigen::Vector3d> on_ground_in_enu;  // once a frame was seen
-    int frames_covered = 0;
+    std::optional<VehicleTime> covered_at;            // last
+    double unseen = 1.0;  // probability that no frame so far has shown the point's object
   };
 
+  static void look_at(Entry& entry, VehicleTime now, double found);
   void list_open();
   void add_pairings(std::size_t open, const std::vector<Candidate>& candidates, const Sigma& sigma);
+  double density_of_others(std::size_t open, const std::vector<Candidate>& candidates) const;
   double level_m() const;
   std::optional<std::size_t> point_of(std::uint64_t track_id) const;
 

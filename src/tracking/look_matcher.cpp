@@ -62,12 +62,25 @@ LookMatcher::LookMatcher(const JointTrackerConfig& config, int max_detections)
 
 const Explanation& LookMatcher::explain(const std::vector<Look>& looks, const FrameNoise& noise,
                                         TrackTable& tracks) {
-  associate(looks, noise, 1.0, tracks);
-  if (tracks.size() > 0 && looks_alone() > 0) consider_shake(looks, noise, tracks);
+  find_explanation(looks, noise, tracks);
   prefer_older_twins(tracks);
   explanation_.common_shift = common_shift(looks, tracks);
   note_evidence(tracks);
   return explanation_;
+}
+
+const Explanation& LookMatcher::try_to_explain(const std::vector<Look>& looks, const FrameNoise& noise,
+                                               const TrackTable& tracks) {
+  find_explanation(looks, noise, tracks);
+  explanation_.common_shift = common_shift(looks, tracks);
+  explanation_.cost = association_.cost();
+  return explanation_;
+}
+
+void LookMatcher::find_explanation(const std::vector<Look>& looks, const FrameNoise& noise,
+                                   const TrackTable& tracks) {
+  associate(looks, noise, 1.0, tracks);
+  if (tracks.size() > 0 && looks_alone() > 0) consider_shake(looks, noise, tracks);
 }
 
 void LookMatcher::associate(const std::vector<Look>& looks, const FrameNoise& noise, double shake,

@@ -17,6 +17,7 @@ namespace geoloc {
 struct Explanation {
   std::vector<JointAssociation::Match> match_of_look;
   Eigen::Vector2d common_shift = Eigen::Vector2d::Zero();  ///< median of looks minus their tracks [m]
+  double cost = 0.0;                                       ///< by try_to_explain(): JointAssociation::cost()
 };
 
 /// Which look shows which object at rest.
@@ -28,6 +29,10 @@ class LookMatcher {
   /// Explains the looks and notes in the tracks what they are evidence of. The reference holds until the next
   /// call.
   const Explanation& explain(const std::vector<Look>& looks, const FrameNoise& noise, TrackTable& tracks);
+
+  /// The same without noting anything, with its cost.
+  const Explanation& try_to_explain(const std::vector<Look>& looks, const FrameNoise& noise,
+                                    const TrackTable& tracks);
 
   /// The pair that a look of the last frame was explained by.
   const Pairing& pairing_of(const JointAssociation::Match& match) const {
@@ -44,6 +49,7 @@ class LookMatcher {
     double shared_m;        // distance of its Jacobian from the looks' mean one
   };
 
+  void find_explanation(const std::vector<Look>& looks, const FrameNoise& noise, const TrackTable& tracks);
   void associate(const std::vector<Look>& looks, const FrameNoise& noise, double shake,
                  const TrackTable& tracks);
   void consider_shake(const std::vector<Look>& looks, const FrameNoise& noise, const TrackTable& tracks);

@@ -39,6 +39,12 @@ bool is_to_be_compared(const RestingObject& track) {
 
 }  // namespace
 
+double chance_to_show(const RestingObject& track, const std::vector<Look>& looks, const JointFrame& frame,
+                      const FrameShift& shift, const JointTrackerConfig& config) {
+  return visibility(shown_object(track, looks, shift), frame.projector, frame.view, config.sigma_px,
+                    config.smallest_object_px);
+}
+
 bool weigh_missed(const std::vector<Look>& looks, const JointFrame& frame, const FrameShift& shift,
                   const JointTrackerConfig& config, DetectionRate& detection_rate, TrackTable& tracks) {
   bool may_be_twins = false;
@@ -48,9 +54,8 @@ bool weigh_missed(const std::vector<Look>& looks, const JointFrame& frame, const
       continue;
     }
     if (track.is_seen && !track.is_confirmed()) continue;
-    const double probability = visibility(shown_object(track, looks, shift), frame.projector, frame.view,
-                                          config.sigma_px, config.smallest_object_px) *
-                               detection_rate.probability();
+    const double probability =
+        chance_to_show(track, looks, frame, shift, config) * detection_rate.probability();
     if (probability <= 0.0) continue;
     track.detection_probability = probability;
     if (!track.is_seen) {

@@ -11,6 +11,10 @@
 
 namespace geoloc {
 
+/// How well the frame would show an object, 0..1.
+double chance_to_show(const RestingObject& track, const std::vector<Look>& looks, const JointFrame& frame,
+                      const FrameShift& shift, const JointTrackerConfig& config);
+
 /// Holds it against the objects that the frame should show and does not, and counts how often confirmed ones
 /// are found. Notes in each track how likely the frame was to show it. True where two tracks may turn out to
 /// be one and are known well enough to be compared: they do not wait for the next solution.

@@ -26,6 +26,8 @@ struct LocatedFrame {
   const FrameViewer& viewer;  ///< made `view`
   const GroundModel& ground;
   std::optional<double> range_m;  ///< a rangefinder's distance down the body's axis at the view's time
+  /// The same frame, were the vehicle's yaw 180 deg from what it tells; nullptr where it cannot be.
+  const LocatedFrame* turned = nullptr;
 };
 
 /// Makes objects of the fixes of one frame after another.
@@ -36,6 +38,7 @@ class Tracker {
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
 
+  /// Where counters().frames_turned rises, `frame.turned` was taken in its place.
   virtual void update(const LocatedFrame& frame) = 0;
 
   /// Tentative and confirmed, in order of their ids.

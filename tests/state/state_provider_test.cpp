@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "geoloc/geometry/angles.hpp"
@@ -271,6 +272,26 @@ TEST(StateProvider, GoesOnAsBeforeWhereTheVehiclesOwnStateJumps) {
     EXPECT_EQ(provider.counters().height_steps, jump.up_m != 0.0 ? 1U : 0U);
     EXPECT_EQ(provider.counters().yaw_steps, jump.yaw_rad != 0.0 ? 1U : 0U);
   }
+}
+
+/// Half a turn at 360 deg/s, begun and ended at once, in a bank: the rates about the body's axes tell it.
+TEST(StateProvider, TakesNoFastTurnForAStepOfTheYaw) {
+  constexpr double kRoll_rad = 0.5, kPitch_rad = 0.2, kRate_radps = 2.0 * kPi;
+  const auto count_steps = [&](bool tells_rates) {
+    StateProvider provider(StateConfig{});
+    for (int i = 0; i < 100; ++i) {
+      const double time_s = 0.1 * i, into_s = std::clamp(time_s - 5.03, 0.0, 0.5);
+      const double yaw_rate = into_s > 0.0 && into_s < 0.5 ? kRate_radps : 0.0;
+      AttitudeSample sample{at_s(time_s), {kRoll_rad, kPitch_rad, wrap_to_pi(3.0 + kRate_radps * into_s)}};
+      const Eigen::Vector3d about_down = Eigen::Vector3d(0.0, 0.0, yaw_rate);
+      if (tells_rates) sample.rates_in_body_radps = ned_from_body(sample.angles).conjugate() * about_down;
+      provider.add(position(time_s, 0.0, 20.0));
+      provider.add(sample);
+    }
+    return provider.counters().yaw_steps;
+  };
+  EXPECT_GT(count_steps(false), 0U);
+  EXPECT_EQ(count_steps(true), 0U);
 }
 
 TEST(StateProvider, WaitsForTheSampleAfterAJumpInsteadOfExtrapolatingIt) {

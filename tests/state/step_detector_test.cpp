@@ -16,7 +16,7 @@ VehicleTime at_s(double s) {
   return VehicleTime{from_seconds(s)};
 }
 
-constexpr StepLimits kLimits{1.0, 7.0, 0.3, 0.005};
+constexpr StepLimits kLimits{1.0, 7.0, 7.0, 0.3, 0.005};
 using Detector = StepDetector<2>;
 
 /// Eastwards and northwards in turns of ten seconds, at 5 m/s, with bends at once.
@@ -82,6 +82,77 @@ TEST(StepDetector, TakesNoPauseOfTheTelemetryForAStep) {
     detector.observe(at_s(time_s), lanes(time_s));
   }
   EXPECT_EQ(detector.steps().count, 0U);
+}
+
+/// Rate of change of a path, by differences.
+template <typename Path>
+Eigen::Vector2d rate_of(const Path& path, double time_s) {
+  constexpr double kHalf_s = 1e-4;
+  return (path(time_s + kHalf_s) - path(time_s - kHalf_s)) / (2.0 * kHalf_s);
+}
+
+/// Bends within a tenth of a second, at 80 m/s: 800 m/s^2, a hundred times what the limits allow.
+Eigen::Vector2d rushing_lanes(double time_s) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  constexpr int kParts = 100;
+  for (int i = 0; i < kParts; ++i) mean += 16.0 * sharp_lanes(time_s + 0.1 * (i + 0.5) / kParts) / kParts;
+  return mean;
+}
+
+TEST(StepDetector, TakesNoMotionForAStepThatItsOwnRatesTell) {
+  Detector without(kLimits), with(kLimits);
+  for (int i = 0; i < 2000; ++i) {
+    const double time_s = 0.1 * i;
+    without.observe(at_s(time_s), rushing_lanes(time_s));
+    with.observe(at_s(time_s), rushing_lanes(time_s), rate_of(rushing_lanes, time_s));
+  }
+  EXPECT_GT(without.steps().count, 0U);
+  EXPECT_EQ(with.steps().count, 0U);
+}
+
+/// 7 m/s^2 make 1.75 m of half a second after half a second. Rates tell that they were not made.
+TEST(StepDetector, SeesBetweenSlowSamplesWhatTheirRatesDoNotTell) {
+  const Eigen::Vector2d step(1.5, -2.0);
+  for (const double begin_s : {25.2, 33.4, 37.0}) {
+    Detector without(kLimits), with(kLimits);
+    for (int i = 0; i < 120; ++i) {
+      const double time_s = 0.5 * i;
+      const Eigen::Vector2d value = lanes(time_s) + (time_s >= begin_s ? step : step * 0.0);
+      without.observe(at_s(time_s), value);
+      with.observe(at_s(time_s), value, rate_of(lanes, time_s));
+    }
+    EXPECT_EQ(without.steps().count, 0U);
+    EXPECT_EQ(with.steps().count, 1U) << begin_s;
+    EXPECT_LT((with.steps().size - step).norm(), 3.0 * std::sqrt(with.steps().variance[0])) << begin_s;
+  }
+}
+
+/// As some senders do.
+TEST(StepDetector, DoesNotBelieveRatesThatAreLeftZero) {
+  for (const double rate_hz : {0.5, 1.0, 2.0, 5.0, 10.0, 50.0}) {
+    Detector detector(kLimits);
+    for (int i = 0; i < 2000; ++i)
+      detector.observe(at_s(i / rate_hz), lanes(i / rate_hz), Eigen::Vector2d(0.0, 0.0));
+    EXPECT_EQ(detector.steps().count, 0U) << rate_hz << " Hz";
+  }
+  Detector detector(kLimits);
+  for (int i = 0; i < 600; ++i) {
+    const Eigen::Vector2d step(i >= 370 ? 2.0 : 0.0, 0.0);
+    detector.observe(at_s(0.1 * i), lanes(0.1 * i) + step, Eigen::Vector2d(0.0, 0.0));
+  }
+  EXPECT_EQ(detector.steps().count, 1U);
+}
+
+/// The rates of a vehicle that accelerates as hard as the limits allow, to and fro.
+TEST(StepDetector, TakesNoMotionForAStepBesideTrueRates) {
+  for (const auto& path : {lanes, wild}) {
+    for (const double rate_hz : {0.5, 1.0, 2.0, 5.0, 10.0, 50.0}) {
+      Detector detector(kLimits);
+      for (int i = 0; i < 2000; ++i)
+        detector.observe(at_s(i / rate_hz), path(i / rate_hz), rate_of(path, i / rate_hz));
+      EXPECT_EQ(detector.steps().count, 0U) << rate_hz << " Hz";
+    }
+  }
 }
 
 struct Step {

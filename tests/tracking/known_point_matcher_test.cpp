@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace geoloc {
 namespace {
 
@@ -16,9 +18,21 @@ KnownPoint point_at(const Eigen::Vector2d& position_in_enu) {
   return point;
 }
 
-void cover(KnownPointMatcher& known, int frames) {
+constexpr double kFoundByAFrame = 0.9;
+
+VehicleTime at_flight_s(double time_s) {
+  return VehicleTime{from_seconds(time_s)};
+}
+
+/// Frames seconds apart, of all places or of some of them.
+template <typename IsCovered>
+void cover(KnownPointMatcher& known, double begin_s, int frames, const IsCovered& is_covered) {
   for (int frame = 0; frame < frames; ++frame)
-    known.cover(kFrame, kLevel, [](const Eigen::Vector3d&) { return true; });
+    known.cover(kFrame, kLevel, at_flight_s(begin_s + 2.0 * frame), kFoundByAFrame, is_covered);
+}
+
+void cover(KnownPointMatcher& known, int frames) {
+  cover(known, 1000.0, frames, [](const Eigen::Vector3d&) { return true; });
 }
 
 /// Looked at long enough.
@@ -85,25 +99,54 @@ TEST(KnownPoints, AreReportedWhereNoObjectIs) {
   EXPECT_EQ(known.matches()[1].status, KnownPointStatus::kNoObject);
 }
 
-TEST(KnownPoints, WaitUntilTheCameraHasLookedAtTheirPlaceInTwentyFrames) {
-  KnownPointMatcher known({point_at({0, 0}), point_at({20, 0})}, 10);
+/// Two stills, or half a second of a stream, whose frames share what hides an object: where nothing else
+/// stands near.
+TEST(KnownPoints, WaitUntilTheirObjectsWouldHaveBeenFound) {
   const std::vector<KnownPointMatcher::Candidate> candidates{{7, true, 0, {0.1, 0.0}},
                                                              {8, true, 0, {20.1, 0.0}}};
-  for (int frame = 0; frame < 20; ++frame) {
-    EXPECT_FALSE(match(known, candidates)) << frame;
+  const auto is_west = [](const Eigen::Vector3d& place) { return place.x() < 10.0; };
+  for (const double period_s : {0.1, 0.5, 5.0}) {
+    KnownPointMatcher known({point_at({0, 0}), point_at({20, 0})}, 10);
+    EXPECT_FALSE(match(known, candidates));
     EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kNotCovered);
-    known.cover(kFrame, kLevel, [](const Eigen::Vector3d& place) { return place.x() < 10.0; });
+    int frames = 0;
+    do {
+      known.cover(kFrame, kLevel, at_flight_s(period_s * frames++), kFoundByAFrame, is_west);
+    } while (!match(known, candidates) && frames < 100);
+    const double looks = 1.0 + (frames - 1) * std::min(1.0, period_s);
+    EXPECT_GT(looks, 1.0) << period_s;
+    EXPECT_LE(looks, 2.0) << period_s;
+    EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kMatched);
+    EXPECT_EQ(known.matches()[1].status, KnownPointStatus::kNotCovered);
   }
-  EXPECT_TRUE(match(known, candidates));
-  EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kMatched);
-  EXPECT_EQ(known.matches()[1].status, KnownPointStatus::kNotCovered);
+}
+
+/// Either of two neighbours, a metre from where one was surveyed: what they share is known to 0.5 m.
+TEST(KnownPoints, AreNotMatchedWhereAnotherObjectIsNearlyAsLikely) {
+  for (const double own_m : {0.05, 0.5}) {
+    for (const double shared_m : {0.0, 0.5}) {
+      KnownPointMatcher known = covered({point_at({0, 0})});
+      EXPECT_FALSE(known.match({{7, true, 0, {0.5, 0.0}}, {8, true, 0, {-0.7, 0.0}}},
+                               {std::max(shared_m, 0.5 - own_m), own_m}, kMatchGate, kMatchAmbiguity));
+      EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kAmbiguous) << own_m << ' ' << shared_m;
+    }
+  }
+}
+
+/// The object may have been deleted: that it was seen long ago says nothing.
+TEST(KnownPoints, WhoseObjectIsGoneAreFoundAgainLikeNewOnes) {
+  KnownPointMatcher known = covered({point_at({0, 0})});
+  ASSERT_TRUE(match(known, {{7, true, 0, {0.1, 0.0}}}));
+  known.forget(7);
+  EXPECT_FALSE(match(known, {{9, true, 0, {0.6, 0.0}}}));
+  cover(known, 30);
+  EXPECT_TRUE(match(known, {{9, true, 0, {0.6, 0.0}}}));
 }
 
 TEST(KnownPoints, AreMatchedOnce) {
   KnownPointMatcher known({point_at({0, 0}), point_at({20, 0})}, 10);
-  known.cover(kFrame, kLevel, [](const Eigen::Vector3d&) { return false; });
-  for (int frame = 0; frame < 20; ++frame)
-    known.cover(kFrame, kLevel, [](const Eigen::Vector3d& place) { return place.x() < 10.0; });
+  cover(known, 0.0, 1, [](const Eigen::Vector3d&) { return false; });
+  cover(known, 2.0, 20, [](const Eigen::Vector3d& place) { return place.x() < 10.0; });
   const std::vector<KnownPointMatcher::Candidate> candidates{{7, true, 0, {0.1, 0.0}},
                                                              {8, true, 0, {20.1, 0.0}}};
   EXPECT_TRUE(match(known, candidates));
@@ -119,8 +162,7 @@ TEST(KnownPoints, DoNotShareAnObject) {
   KnownPointMatcher known = covered({point_at({0, 0})});
   ASSERT_TRUE(match(known, {{7, true, 0, {0.1, 0.0}}}));
   KnownPointMatcher two({point_at({0, 0}), point_at({0.6, 0})}, 10);
-  for (int frame = 0; frame < 20; ++frame)
-    two.cover(kFrame, kLevel, [](const Eigen::Vector3d& place) { return place.x() < 0.3; });
+  cover(two, 0.0, 20, [](const Eigen::Vector3d& place) { return place.x() < 0.3; });
   ASSERT_TRUE(match(two, {{7, true, 0, {0.1, 0.0}}}));
   cover(two, 20);
   EXPECT_FALSE(match(two, {{7, true, 0, {0.1, 0.0}}}));
@@ -155,6 +197,7 @@ TEST(KnownPoints, FollowTheirTracks) {
   known.forget(3);
   EXPECT_FALSE(known.survey_of(3));
   EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kNotCovered);
+  cover(known, 20);
   EXPECT_TRUE(match(known, {{9, true, 0, {0.1, 0.0}}}));
 }
 

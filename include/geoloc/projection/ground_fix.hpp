@@ -54,6 +54,7 @@ struct FrameStamp {
   VehicleTime captured_at;
   HostTime captured_at_host;
   double time_sigma_s = 0.0;  ///< 1-sigma; 0: not stated
+  bool is_turned = false;     ///< the vehicle's yaw is 180 deg from what it tells
 };
 
 /// From where a frame was seen.

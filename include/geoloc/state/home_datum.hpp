@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/state/usual_distance.hpp"
 
 namespace geoloc {
 
@@ -40,8 +41,7 @@ class HomeDatum {
   std::optional<Heights> newest_;
   double above_home_rate_mps_ = 0.0;
   double msl_rate_mps_ = 0.0;
-  double usual_step_m_ = 0.0;  // of the difference of both heights, from sample to sample
-  int samples_ = 0;
+  UsualDistance usual_step_m_;  // of the difference of both heights, from sample to sample
   bool has_flown_ = false;
   double moved_up_m_ = 0.0;
   double moved_up_before_m_ = 0.0;  // until moved_at_

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "geoloc/geometry/attitude.hpp"
@@ -13,6 +14,8 @@ namespace geoloc {
 struct AttitudeSample {
   VehicleTime time;
   EulerAngles angles;
+  /// Of its turn about the body's axes, forward, right and down, where it tells them.
+  std::optional<Eigen::Vector3d> rates_in_body_radps = std::nullopt;
 };
 
 /// The vehicle's position as the autopilot reports it (paper, eq. 1).
@@ -24,6 +27,7 @@ struct PositionSample {
   /// real vehicles.
   std::optional<double> height_msl_m;
   std::optional<double> sigma_horizontal_m;  ///< 1-sigma that the receiver claims, where it does
+  std::optional<Eigen::Vector3d> velocity_in_enu = std::nullopt;  ///< [m/s], where it tells it
 };
 
 /// The distance to the ground that a rangefinder looking down the body's axis measures.

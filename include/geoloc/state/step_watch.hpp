@@ -5,8 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "geoloc/geometry/attitude.hpp"
-#include "geoloc/geometry/time.hpp"
+#include "geoloc/state/samples.hpp"
 #include "geoloc/state/step_detector.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 
@@ -19,10 +18,11 @@ class StepWatch {
   StepWatch();
 
   /// The steps of the position up to this sample; nullopt for one that comes late.
-  std::optional<StateSteps> observe(VehicleTime time, const Eigen::Vector3d& position_in_enu);
+  std::optional<StateSteps> observe(VehicleTime time, const Eigen::Vector3d& position_in_enu,
+                                    const std::optional<Eigen::Vector3d>& velocity_in_enu = std::nullopt);
 
   /// The same of the attitude.
-  std::optional<StateSteps> observe(VehicleTime time, const EulerAngles& angles);
+  std::optional<StateSteps> observe(const AttitudeSample& sample);
 
   StateSteps steps_of_position() const;
   StateSteps steps_of_attitude() const;

@@ -77,6 +77,7 @@ struct TrackCounters {
   std::uint64_t ranges_used = 0;
   std::uint64_t ranges_refused = 0;   ///< they disagree with what looks tell of the height
   std::uint64_t latency_changes = 0;  ///< frames were found to be stamped with another latency
+  std::uint64_t frames_turned = 0;    ///< whose looks show that the vehicle's yaw was 180 deg off
 };
 
 }  // namespace geoloc

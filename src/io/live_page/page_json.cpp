@@ -142,6 +142,7 @@ std::string estimator(const EstimatorReport& report) {
                       {"Jumps of home", counters.home_moves},
                       {"Clock steps", counters.clock_steps},
                       {"Latency changes", counters.latency_changes},
+                      {"Frames turned", counters.frames_turned},
                       {"Tracks made", counters.tracks_created},
                       {"Tracks removed", counters.tracks_removed},
                       {"Tracks merged", counters.tracks_merged}}}};

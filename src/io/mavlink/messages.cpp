@@ -35,17 +35,20 @@ Message decode_heartbeat(const Frame& frame) {
   return Heartbeat{fields.type, fields.autopilot};
 }
 
-Message attitude_message(VehicleTime time, const EulerAngles& angles, bool from_quaternion) {
+/// `fields` tell the rates about the body's axes in the same names in both messages.
+template <typename Fields>
+Message attitude_message(const Fields& fields, const EulerAngles& angles, bool from_quaternion) {
   const bool is_valid = std::abs(angles.roll_rad) <= kLargestTurn_rad &&
                         std::abs(angles.pitch_rad) <= kLargestPitch_rad &&
                         std::abs(angles.yaw_rad) <= kLargestTurn_rad;
   if (!is_valid) return RefusedValues{};
-  return AttitudeMessage{{time, angles}, from_quaternion};
+  const Eigen::Vector3d rates_in_body_radps(fields.rollspeed, fields.pitchspeed, fields.yawspeed);
+  return AttitudeMessage{{boot_time(fields.time_boot_ms), angles, rates_in_body_radps}, from_quaternion};
 }
 
 Message decode_attitude(const Frame& frame) {
   const auto fields = unpack(frame, mavlink_msg_attitude_decode);
-  return attitude_message(boot_time(fields.time_boot_ms), {fields.roll, fields.pitch, fields.yaw}, false);
+  return attitude_message(fields, {fields.roll, fields.pitch, fields.yaw}, false);
 }
 
 Message decode_attitude_quaternion(const Frame& frame) {
@@ -53,7 +56,7 @@ Message decode_attitude_quaternion(const Frame& frame) {
   const Eigen::Quaterniond ned_from_body(fields.q1, fields.q2, fields.q3, fields.q4);
   constexpr double kNormTolerance = 0.01;
   if (!(std::abs(ned_from_body.norm() - 1.0) <= kNormTolerance)) return RefusedValues{};
-  return attitude_message(boot_time(fields.time_boot_ms), euler_angles(ned_from_body.normalized()), true);
+  return attitude_message(fields, euler_angles(ned_from_body.normalized()), true);
 }
 
 Message decode_position(const Frame& frame) {
@@ -63,6 +66,7 @@ Message decode_position(const Frame& frame) {
   sample.position = {fields.lat / 1e7, fields.lon / 1e7};
   sample.height_above_home_m = fields.relative_alt / 1e3;
   sample.height_msl_m = fields.alt / 1e3;
+  sample.velocity_in_enu = Eigen::Vector3d(fields.vy, fields.vx, -fields.vz) / 1e2;
   const bool is_valid = std::abs(sample.position.latitude_deg) <= 90.0 &&
                         std::abs(sample.position.longitude_deg) <= 180.0 &&
                         std::abs(sample.height_above_home_m) <= kLargestHeight_m &&

@@ -28,6 +28,7 @@ RunCounters counters_of(const Geolocator& geolocator) {
   counters.yaw_steps = telemetry.yaw_steps;
   counters.clock_steps = telemetry.clock_steps;
   counters.latency_changes = tracks.latency_changes;
+  counters.frames_turned = tracks.frames_turned;
   counters.tracks_created = tracks.created;
   counters.tracks_removed = tracks.removed;
   counters.tracks_merged = tracks.merged;

@@ -45,6 +45,7 @@ ordered_json counters_to_json(const RunCounters& counters) {
           {"yaw_steps", counters.yaw_steps},
           {"clock_steps", counters.clock_steps},
           {"latency_changes", counters.latency_changes},
+          {"frames_turned", counters.frames_turned},
           {"tracks_created", counters.tracks_created},
           {"tracks_removed", counters.tracks_removed},
           {"tracks_merged", counters.tracks_merged},

@@ -111,17 +111,18 @@ VehicleTime boot_time(std::uint32_t time_boot_ms) {
   return VehicleTime{std::chrono::milliseconds{time_boot_ms}};
 }
 
-/// Messages at each multiple of the period between two recorded ones; none where the truth is not known.
+/// Messages at `due` and each multiple of the period after it, between two recorded ones; none where the
+/// truth is not known.
 template <typename Telling>
-void fill_up(const RecordedStream& stream, Duration period, const Flight& flight, LogBuilder& log) {
-  VehicleTime due =
-      boot_time(fields_in<typename Telling::Fields>(stream.messages.front().frame).time_boot_ms);
+void fill_up(const RecordedStream& stream, VehicleTime due, Duration period, const Flight& flight,
+             LogBuilder& log) {
   for (std::size_t i = 1; i < stream.messages.size(); ++i) {
     const FrameView& frame = stream.messages[i - 1].frame;
     const auto a = fields_in<typename Telling::Fields>(frame);
     const auto b = fields_in<typename Telling::Fields>(stream.messages[i].frame);
     const VehicleTime begin = boot_time(a.time_boot_ms), end = boot_time(b.time_boot_ms);
     for (; due < end; due += period) {
+      if (due < begin) continue;
       const VehicleTime stamp{std::chrono::floor<std::chrono::milliseconds>(due.time_since_epoch())};
       const auto true_a = flight.truth.pose(begin), true_b = flight.truth.pose(end),
                  true_now = flight.truth.pose(stamp);
@@ -133,6 +134,11 @@ void fill_up(const RecordedStream& stream, Duration period, const Flight& flight
       log.add(flight.host_time(due), frame, payload_with(fields));
     }
   }
+}
+
+/// Of its first message, on the vehicle's clock. All messages that tell the state begin alike.
+VehicleTime first_stamp(const RecordedStream& stream) {
+  return boot_time(load_u32(whole_payload(stream.messages.front().frame).data()));
 }
 
 }  // namespace
@@ -220,11 +226,49 @@ Flight at_telemetry_rate(const Flight& flight, double rate_hz) {
     if (!tells_state(stream.message_id)) continue;
     const bool is_dense_enough = stream.period <= period + period / 50;
     if (!is_dense_enough && stream.message_id == MAVLINK_MSG_ID_ATTITUDE) {
-      fill_up<AttitudeTelling>(stream, period, flight, log);
+      fill_up<AttitudeTelling>(stream, first_stamp(stream), period, flight, log);
     } else if (!is_dense_enough && stream.message_id == MAVLINK_MSG_ID_GLOBAL_POSITION_INT) {
-      fill_up<PositionTelling>(stream, period, flight, log);
+      fill_up<PositionTelling>(stream, first_stamp(stream), period, flight, log);
     } else {
       thin_out(stream, period, flight, log);
+    }
+  }
+  return {flight.name, log.build(), flight.truth, flight.booted_at};
+}
+
+Duration period_of(const Stills& stills, const Flight& flight) {
+  const TimeSpan survey = flight.truth.survey();
+  return std::chrono::floor<std::chrono::milliseconds>((survey.end - survey.begin) / stills.count);
+}
+
+Flight as_stills(const Flight& flight, const Stills& stills) {
+  const Duration period = period_of(stills, flight);
+  const VehicleTime first = flight.truth.survey().begin;
+  LogBuilder log, told;
+  for (const RecordedStream& stream : recorded_streams(flight)) {
+    if (stream.message_id == MAVLINK_MSG_ID_ATTITUDE)
+      fill_up<AttitudeTelling>(stream, first, period, flight, told);
+    if (stream.message_id == MAVLINK_MSG_ID_GLOBAL_POSITION_INT)
+      fill_up<PositionTelling>(stream, first, period, flight, told);
+  }
+  for (const io::TlogRecord& record : flight.telemetry.records()) {
+    const auto frame = view_frame(record.frame, record.size);
+    if (!frame || !tells_state(frame->message_id)) log.add(record);
+  }
+  const auto turned_until = [&](std::int64_t picture) {
+    return (picture * stills.turned + stills.count / 2) / stills.count;
+  };
+  const io::Tlog telemetry = told.build();
+  for (const io::TlogRecord& record : telemetry.records()) {
+    const auto frame = view_frame(record.frame, record.size);
+    const auto picture =
+        std::llround(seconds(record.received_at - flight.host_time(first)) / seconds(period));
+    if (frame->message_id == MAVLINK_MSG_ID_ATTITUDE && turned_until(picture + 1) > turned_until(picture)) {
+      auto fields = fields_in<mavlink_attitude_t>(*frame);
+      fields.yaw = static_cast<float>(wrap_to_pi(fields.yaw + kPi));
+      log.add(record.received_at, *frame, payload_with(fields));
+    } else {
+      log.add(record);
     }
   }
   return {flight.name, log.build(), flight.truth, flight.booted_at};

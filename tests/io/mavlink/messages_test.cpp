@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/attitude.hpp"
+#include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/recording/tlog.hpp"
 #include "io/mavlink/fixture_files.hpp"
@@ -136,6 +140,45 @@ TEST(Messages, QuaternionAndEulerAnglesOfOneInstantAgree) {
     ++compared;
   }
   EXPECT_GT(compared, 20);
+}
+
+/// Rates and velocities against differences of what they are the rates of: axes, signs and units.
+TEST(Messages, TellRatesThatAgreeWithWhatChanges) {
+  const Tlog log = read_tlog(std::filesystem::path(GEOLOC_SOURCE_DIR) / "data/flights/stock_path1.tlog");
+  FrameParser parser;
+  std::optional<AttitudeSample> attitude;
+  std::optional<PositionSample> position;
+  double turned = 0.0, turned_otherwise = 0.0, moved_m = 0.0, moved_otherwise_m = 0.0;
+  for (const TlogRecord& record : log.records()) {
+    parser.append(record.frame, record.size);
+    const Message message = decode(*parser.next());
+    if (const auto* const now = std::get_if<AttitudeMessage>(&message)) {
+      const double pause_s = attitude ? seconds(now->sample.time - attitude->time) : 0.0;
+      if (pause_s > 0.0) {
+        const Eigen::AngleAxisd turn(ned_from_body(attitude->angles).conjugate() *
+                                     ned_from_body(now->sample.angles));
+        const Eigen::Vector3d told =
+            0.5 * pause_s * (*attitude->rates_in_body_radps + *now->sample.rates_in_body_radps);
+        turned += std::abs(turn.angle());
+        turned_otherwise += (turn.angle() * turn.axis() - told).norm();
+      }
+      attitude = now->sample;
+    }
+    if (const auto* const now = std::get_if<PositionSample>(&message)) {
+      const double pause_s = position ? seconds(now->time - position->time) : 0.0;
+      if (pause_s > 0.0) {
+        const Eigen::Vector2d way = LocalFrame(position->position).to_local(now->position).position_in_enu;
+        const Eigen::Vector3d moved(way.x(), way.y(),
+                                    now->height_above_home_m - position->height_above_home_m);
+        moved_m += moved.norm();
+        moved_otherwise_m +=
+            (moved - 0.5 * pause_s * (*position->velocity_in_enu + *now->velocity_in_enu)).norm();
+      }
+      position = *now;
+    }
+  }
+  EXPECT_LT(turned_otherwise, 0.4 * turned);
+  EXPECT_LT(moved_otherwise_m, 0.2 * moved_m);
 }
 
 }  // namespace

@@ -8,6 +8,8 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
+#include "geoloc/sim/live/flight_variants.hpp"
+#include "geoloc/state/state_provider.hpp"
 #include "sim/flights_for_test.hpp"
 
 namespace geoloc::sim {
@@ -31,6 +33,45 @@ Told hear(const Flight& flight) {
     }
   }
   return told;
+}
+
+/// What a receiver notices in the order of the stamps.
+StateProvider::Counters notice(const Flight& flight) {
+  const Told told = hear(flight);
+  StateProvider provider(StateConfig{});
+  auto position = told.positions.begin();
+  for (const AttitudeSample& attitude : told.attitudes) {
+    for (; position != told.positions.end() && position->time <= attitude.time; ++position)
+      provider.add(*position);
+    provider.add(attitude);
+  }
+  return provider.counters();
+}
+
+/// A fast vehicle turns faster, and slow telemetry leaves more time for it. Four times as fast, the recorded
+/// paths take sixteen times the acceleration, more than vehicles have: only many samples show it.
+TEST(StateJumps, AreSeenWhereTheyAreAndNowhereElse) {
+  for (const char* const name : {"stock_path1", "stock_path6", "gnss_path2", "gnss_path4"}) {
+    const Flight recorded = load(name);
+    for (const double speed : {1.0, 4.0}) {
+      const Flight flight = at_speed(recorded, speed);
+      for (const double rate_hz : {1.0, 2.0, 5.0, 10.0, 40.0}) {
+        if (speed > 1.0 && rate_hz < 10.0) continue;
+        SCOPED_TRACE(std::string(name) + " at " + std::to_string(speed) + ", " + std::to_string(rate_hz));
+        const auto none = notice(at_telemetry_rate(flight, rate_hz));
+        EXPECT_EQ(none.yaw_steps + none.position_steps + none.height_steps + none.home_moves, 0U);
+        if (speed > 1.0 || rate_hz < 2.0) continue;
+        const auto jumped = [&](const char* jump) {
+          return notice(with_jump(at_telemetry_rate(flight, rate_hz), state_jump(jump, flight.truth)));
+        };
+        EXPECT_EQ(jumped("yaw").yaw_steps, 1U);
+        EXPECT_EQ(jumped("reset").position_steps, 1U);
+        EXPECT_EQ(jumped("glitch").position_steps, 2U);
+        EXPECT_EQ(jumped("height").height_steps, 1U);
+        EXPECT_EQ(jumped("home").home_moves, 1U);
+      }
+    }
+  }
 }
 
 /// What is told while the jump lasts, and nothing else, differs by the jump.

@@ -28,6 +28,7 @@ struct RunCounters {
   std::uint64_t yaw_steps = 0;
   std::uint64_t clock_steps = 0;      ///< of the vehicle's clock against the host's
   std::uint64_t latency_changes = 0;  ///< frames were found to be stamped with another latency
+  std::uint64_t frames_turned = 0;    ///< whose looks show that the vehicle's yaw was 180 deg off
   std::uint64_t tracks_created = 0;
   std::uint64_t tracks_removed = 0;
   std::uint64_t tracks_merged = 0;

@@ -36,4 +36,17 @@ Flight at_telemetry_rate(const Flight& flight, double rate_hz);
 /// stamps after it are as much behind. Truth and cameras go on.
 Flight with_stopped_clock(const Flight& flight, double pause_s);
 
+/// So many pictures at equal times over a survey, and of so many of them, at equal distances, the yaw turned
+/// round.
+struct Stills {
+  int count = 18;
+  int turned = 0;
+};
+
+/// From one picture to the next.
+Duration period_of(const Stills& stills, const Flight& flight);
+
+/// Attitude and position told at the pictures of the survey and at no other time, as stills tell them.
+Flight as_stills(const Flight& flight, const Stills& stills);
+
 }  // namespace geoloc::sim
