@@ -17,20 +17,28 @@ constexpr double kLeastSigma = 1e-9;
 
 /// Where the head's part begins that concerns the object: at the oldest node that it was seen at.
 Eigen::Index first_column(const Landmark& landmark, const HeadLayout& layout) {
+  if (landmark.spells_begin() != landmark.spells_end())
+    return layout.column_of_spell(landmark.spells_begin()->number);
   return landmark.begin() == landmark.end() ? layout.column_of_calibration()
                                             : layout.column_of(landmark.begin()->number);
 }
 
-Eigen::Index room_for(int max_nodes) {
-  return HeadLayout{0, static_cast<std::uint32_t>(max_nodes) + 2}.size();
+Eigen::Index room_for(const DriftConfig& drift) {
+  return HeadLayout{0, static_cast<std::uint32_t>(drift.max_nodes) + 2, 0,
+                    static_cast<std::uint32_t>(drift.max_spells) + 2}
+      .size();
+}
+
+HeadLayout layout_of(const DriftTimeline& drift) {
+  return {drift.begin(), drift.end(), drift.sway().begin(), drift.sway().end()};
 }
 
 }  // namespace
 
-ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, int max_nodes)
-    : information_(room_for(max_nodes)),
-      right_hand_side_(room_for(max_nodes)),
-      sensitivities_(room_for(max_nodes), kPointSize) {
+ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift)
+    : information_(room_for(drift)),
+      right_hand_side_(room_for(drift)),
+      sensitivities_(room_for(drift), kPointSize) {
   prior_mean_ << prior.boresight_x_deg * kRadPerDeg, prior.boresight_y_deg * kRadPerDeg,
       prior.boresight_z_deg * kRadPerDeg, prior.latency_s, 0.0, 0.0, 0.0;
   prior_sigma_ << prior.sigma_boresight_x_deg * kRadPerDeg, prior.sigma_boresight_y_deg * kRadPerDeg,
@@ -67,6 +75,21 @@ void ArrowheadSolver::add_prior(const Calibration& prior, const DriftTimeline& d
     information_.block<kNodeSize, kNodeSize>(before, before).diagonal() +=
         coupling.cwiseProduct(node.transition);
     information_.block<kNodeSize, kNodeSize>(here, before).diagonal() -= coupling;
+  }
+}
+
+void ArrowheadSolver::add_prior_of_sway(const SwayTimeline& sway, const HeadLayout& layout) {
+  for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
+    const Spell& spell = sway.spell(number);
+    const SwayVector information = sway.information(number);
+    const Eigen::Index here = layout.column_of_spell(number);
+    information_.block<kSwaySize, kSwaySize>(here, here).diagonal() += information;
+    right_hand_side_.segment<kSwaySize>(here) += information.cwiseProduct(spell.prior_mean);
+    if (number == sway.begin()) continue;
+    const Eigen::Index before = here - kSwaySize;
+    information_.block<kSwaySize, kSwaySize>(before, before).diagonal() +=
+        spell.transition * spell.transition * information;
+    information_.block<kSwaySize, kSwaySize>(here, before).diagonal() -= spell.transition * information;
   }
 }
 
@@ -117,16 +140,42 @@ void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& l
       if (earlier->number + 1 == own.number) block += earlier->C_next.transpose();
     }
   }
+  add_spells(landmark, A_inverse, mean, layout);
+}
+
+void ArrowheadSolver::add_spells(const Landmark& landmark, const PointMatrix& A_inverse, const Point& mean,
+                                 const HeadLayout& layout) {
+  const Eigen::Index last = layout.column_of_calibration();
+  for (auto own = landmark.spells_begin(); own != landmark.spells_end(); ++own) {
+    const Eigen::Index here = layout.column_of_spell(own->number);
+    const Eigen::Matrix<double, kPointSize, kSwaySize> gain = A_inverse * own->B;
+    right_hand_side_.segment<kSwaySize>(here) += own->g + own->B.transpose() * mean;
+    information_.block<kCalibration, kSwaySize>(last, here) +=
+        own->C_calibration - landmark.B().transpose() * gain;
+    information_.block<kSwaySize, kSwaySize>(here, here) += own->C_own - own->B.transpose() * gain;
+    for (auto later = own + 1; later != landmark.spells_end(); ++later)
+      information_.block<kSwaySize, kSwaySize>(layout.column_of_spell(later->number), here) -=
+          later->B.transpose() * gain;
+    for (const Landmark::NodeTerms& node : landmark)
+      information_.block<kNodeSize, kSwaySize>(layout.column_of(node.number), here) -=
+          node.B.transpose() * gain;
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (layout.has_node(own->node + side))
+        information_.block<kNodeSize, kSwaySize>(layout.column_of(own->node + side), here) +=
+            own->C_node[side];
+    }
+  }
 }
 
 std::optional<ArrowheadSolver::Solution> ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks,
                                                                 const FlightPrior& prior,
                                                                 const DriftTimeline& drift,
                                                                 const HeightLog& heights) {
-  const HeadLayout layout{drift.begin(), drift.end()};
+  const HeadLayout layout = layout_of(drift);
   information_.reset(layout.size());
   right_hand_side_.head(layout.size()).setZero();
   add_prior(this->prior(prior), drift, layout);
+  add_prior_of_sway(drift.sway(), layout);
   add_heights(heights, layout);
   for (const Landmark* landmark : landmarks) add_landmark(*landmark, layout);
   if (!information_.factorize()) return std::nullopt;
@@ -146,6 +195,10 @@ Calibration ArrowheadSolver::Solution::calibration() const {
 
 NodeVector ArrowheadSolver::Solution::node(std::uint32_t number) const {
   return solver_->right_hand_side_.segment<kNodeSize>(layout_.column_of(number));
+}
+
+SwayVector ArrowheadSolver::Solution::spell(std::uint32_t number) const {
+  return solver_->right_hand_side_.segment<kSwaySize>(layout_.column_of_spell(number));
 }
 
 NodeMatrix ArrowheadSolver::Solution::newest_node_covariance() const {
@@ -184,6 +237,9 @@ void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout
   for (const Landmark::NodeTerms& terms : landmark) {
     sensitivities_.middleRows<kNodeSize>(layout.column_of(terms.number)) += terms.B.transpose() * A_inverse;
   }
+  for (auto terms = landmark.spells_begin(); terms != landmark.spells_end(); ++terms)
+    sensitivities_.middleRows<kSwaySize>(layout.column_of_spell(terms->number)) +=
+        terms->B.transpose() * A_inverse;
 }
 
 /// G S^-1 G' of the sensitivities gathered, which are zero before `first`.

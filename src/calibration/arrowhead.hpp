@@ -13,15 +13,22 @@
 
 namespace geoloc {
 
-/// Where the unknowns of the head stand: the nodes from the oldest on, then the calibration. What objects tie
-/// together lies near the diagonal then, but for the calibration's rows, which come last and fill nothing.
+/// Where the unknowns of the head stand: the spells of the sway, the nodes of the drift from the oldest on,
+/// the calibration. What objects tie together lies near the diagonal then, but for the calibration's rows,
+/// which come last and fill nothing; the spells concern the objects in view alone.
 struct HeadLayout {
-  std::uint32_t begin = 0;  ///< numbers of the nodes: oldest,
-  std::uint32_t end = 0;    ///< and one past the newest
+  std::uint32_t begin = 0;            ///< numbers of the nodes: oldest,
+  std::uint32_t end = 0;              ///< and one past the newest
+  std::uint32_t begin_of_spells = 0;  ///< the same of the spells
+  std::uint32_t end_of_spells = 0;
 
-  Eigen::Index column_of(std::uint32_t node) const {
-    return kNodeSize * static_cast<Eigen::Index>(node - begin);
+  Eigen::Index column_of_spell(std::uint32_t spell) const {
+    return kSwaySize * static_cast<Eigen::Index>(spell - begin_of_spells);
   }
+  Eigen::Index column_of(std::uint32_t node) const {
+    return column_of_spell(end_of_spells) + kNodeSize * static_cast<Eigen::Index>(node - begin);
+  }
+  bool has_node(std::uint32_t node) const { return node >= begin && node < end; }
   Eigen::Index column_of_calibration() const { return column_of(end); }
   Eigen::Index size() const { return column_of_calibration() + CalibrationIndex::kSize; }
 };
@@ -54,6 +61,8 @@ class ArrowheadSolver {
     /// Mean of a node, by its running number.
     NodeVector node(std::uint32_t number) const;
     NodeMatrix newest_node_covariance() const;
+    /// Mean of a spell of the sway, by its running number.
+    SwayVector spell(std::uint32_t number) const;
 
     /// Covariance of an object's absolute position [m^2]: its own noise and that of the head. Its height is
     /// that above the reported home, so that the calibration's height is part of it.
@@ -77,8 +86,8 @@ class ArrowheadSolver {
         newest_covariance_;  // of the newest node and the calibration
   };
 
-  /// Room for so many nodes.
-  ArrowheadSolver(const CalibrationPrior& prior, int max_nodes);
+  /// Room for as many nodes and spells as `drift` allows.
+  ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift);
 
   /// Solves for the head with the objects' sums. nullopt where rounding has left no solution.
   /// `heights`: what is known of the camera's height besides.
@@ -91,8 +100,11 @@ class ArrowheadSolver {
 
  private:
   void add_prior(const Calibration& prior, const DriftTimeline& drift, const HeadLayout& layout);
+  void add_prior_of_sway(const SwayTimeline& sway, const HeadLayout& layout);
   void add_heights(const HeightLog& heights, const HeadLayout& layout);
   void add_landmark(const Landmark& landmark, const HeadLayout& layout);
+  void add_spells(const Landmark& landmark, const PointMatrix& A_inverse, const Point& mean,
+                  const HeadLayout& layout);
   void add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign);
   PointMatrix head_covariance(Eigen::Index first);
 

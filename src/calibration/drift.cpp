@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/drift.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geoloc/geometry/angles.hpp"
 
 namespace geoloc {
 
-DriftTimeline::DriftTimeline(const DriftConfig& config) : config_(config) {
+DriftTimeline::DriftTimeline(const DriftConfig& config) : config_(config), sway_(config) {
   std::size_t length = 1;
   while (length < static_cast<std::size_t>(config.max_nodes) + 2) length *= 2;
   nodes_.resize(length);
@@ -38,10 +40,11 @@ NodeSpan DriftTimeline::cover_after_step(VehicleTime time, double sigma_position
   return newest_span(time);
 }
 
-NodeSpan DriftTimeline::newest_span(VehicleTime time) const {
+NodeSpan DriftTimeline::newest_span(VehicleTime time) {
   const std::uint32_t first = end_ - 2;
   const Duration length = node(first + 1).time - node(first).time;
-  return {first, seconds(time - node(first).time) / seconds(length)};
+  const double share = seconds(time - node(first).time) / seconds(length);
+  return {first, share, sway_.cover(time, first, share)};
 }
 
 void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool continues) {
@@ -60,6 +63,37 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
   next.information = (sigma.array().square() * (1.0 - next.transition.array().square())).inverse();
   nodes_[slot(end_)] = next;
   ++end_;
+}
+
+/// The one whose neighbours are nearest to each other for their age, so that the nodes' distance grows with
+/// it. A straight line across a step of the state would say nothing of the node.
+std::optional<ThinnedNode> DriftTimeline::next_to_thin() const {
+  std::optional<std::uint32_t> densest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::uint32_t number = begin_ + 1; number + 2 < end_; ++number) {
+    const DriftNode &before = node(number - 1), &after = node(number + 1);
+    if (node(number).is_after_step() || after.is_after_step()) continue;
+    const double per_age = seconds(after.time - before.time) / seconds(node(end_ - 1).time - after.time);
+    if (!(per_age < least)) continue;
+    least = per_age;
+    densest = number;
+  }
+  if (!densest) return std::nullopt;
+  const DriftNode &before = node(*densest - 1), &here = node(*densest), &after = node(*densest + 1);
+  const double weight = seconds(here.time - before.time) / seconds(after.time - before.time);
+  return ThinnedNode{*densest, weight, here.mean - (1.0 - weight) * before.mean - weight * after.mean};
+}
+
+void DriftTimeline::thin(const ThinnedNode& thinned) {
+  const DriftNode& gone = node(thinned.number);
+  DriftNode& after = node(thinned.number + 1);
+  const NodeVector variance =
+      after.information.cwiseInverse() + after.transition.cwiseAbs2().cwiseQuotient(gone.information);
+  after.information = variance.cwiseInverse();
+  after.transition = after.transition.cwiseProduct(gone.transition);
+  for (std::uint32_t number = thinned.number; number > begin_; --number) node(number) = node(number - 1);
+  ++begin_;
+  begin_of_fine_ = std::max(begin_of_fine_, thinned.number + 1);
 }
 
 void DriftTimeline::freeze_oldest() {

@@ -4,8 +4,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "calibration/sway.hpp"
 #include "geoloc/calibration/drift_config.hpp"
 #include "geoloc/geometry/time.hpp"
 
@@ -17,10 +19,12 @@ inline constexpr int kNodeUp = 2;
 using NodeVector = Eigen::Matrix<double, kNodeSize, 1>;
 using NodeMatrix = Eigen::Matrix<double, kNodeSize, kNodeSize>;
 
-/// The two nodes around a time, by their running numbers, and the weight of the second.
+/// The two nodes around a time, by their running numbers, and the weight of the second; the spell of the
+/// sway.
 struct NodeSpan {
   std::uint32_t first;
   double weight_of_second;
+  std::uint32_t spell = kNoSpell;
 };
 
 struct DriftNode {
@@ -35,6 +39,13 @@ struct DriftNode {
   NodeVector step_variance = NodeVector::Zero();
 
   bool is_after_step() const { return step_variance.maxCoeff() > 0.0; }
+};
+
+/// What takes the place of a node that is thinned out: d = (1 - w) d(before) + w d(after) + deviation.
+struct ThinnedNode {
+  std::uint32_t number;
+  double weight_of_next;
+  NodeVector deviation;  ///< as estimated
 };
 
 /// The nodes of the last minutes, numbered from 0 at the start of the flight.
@@ -75,21 +86,39 @@ class DriftTimeline {
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }
 
+  /// Errors that last for a second or so, beside the drift.
+  const SwayTimeline& sway() const { return sway_; }
+  SwayTimeline& sway() { return sway_; }
+
   /// Forgets all nodes: the drift begins anew.
-  void clear() { begin_ = end_; }
+  void clear() {
+    begin_ = end_;
+    sway_.clear();
+  }
+
+  /// The oldest node that two others far enough back can stand for.
+  std::optional<ThinnedNode> next_to_thin() const;
+
+  /// Leaves out the node; those before it are called by a number higher by one from now on.
+  void thin(const ThinnedNode& node);
+
+  /// Nodes from here on have the number that they had when they were made.
+  std::uint32_t begin_of_fine() const { return begin_of_fine_; }
 
   /// Forgets the oldest node: its estimate becomes the fixed start of what follows.
   void freeze_oldest();
 
  private:
   std::size_t slot(std::uint32_t number) const { return number & (nodes_.size() - 1); }
-  NodeSpan newest_span(VehicleTime time) const;
+  NodeSpan newest_span(VehicleTime time);
   void append(VehicleTime time, double sigma_position_m, bool continues);
 
   DriftConfig config_;
   std::vector<DriftNode> nodes_;  // a ring; its length is a power of two
+  SwayTimeline sway_;
   std::uint32_t begin_ = 0;
   std::uint32_t end_ = 0;
+  std::uint32_t begin_of_fine_ = 0;
   double position_scale_ = 1.0;
 };
 

@@ -19,7 +19,13 @@ void visit_fields(Visitor& v, DriftConfig& drift) {
           "Correlation time of the yaw's drift");
   v.field("sigma_yaw_deg", drift.sigma_yaw_deg, Range::above(0, 30), "deg", "1-sigma of the yaw's drift");
   v.field("max_nodes", drift.max_nodes, Range::closed(4, 500), "",
-          "Older nodes are frozen at their estimates");
+          "Where there are more, older ones are thinned out, the more the older they are");
+  v.field("spell_s", drift.spell_s, Range::closed(0.1, 600), "s",
+          "Time for which the sway of position and attitude is taken to be constant");
+  v.field("sway_time_constant_s", drift.sway_time_constant_s, Range::positive(), "s",
+          "Correlation time of the sway");
+  v.field("max_spells", drift.max_spells, Range::closed(0, 8), "",
+          "Older spells are frozen at their estimates; 0: the sway is not estimated");
 }
 
 }  // namespace geoloc

@@ -39,6 +39,9 @@ class HeightLog {
   /// The drift's oldest node is about to be frozen at its estimate.
   void freeze_oldest(const DriftTimeline& drift);
 
+  /// The drift's node is about to be left out.
+  void thin(const ThinnedNode& node);
+
   /// The flight begins anew.
   void clear() {
     observations_.clear();

@@ -28,7 +28,12 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   const Eigen::Matrix2d& W = observation.information;
   const Eigen::Matrix<double, 2, kPointSize> H = observation.point_jacobian();
   const Eigen::Matrix<double, 2, CalibrationIndex::kSize>& Jc = observation.calibration_jacobian;
-  const Eigen::Vector2d Wy = W * observation.value;
+  const Eigen::Matrix<double, 2, kSwaySize> Js = observation.sway_jacobian();
+  const bool has_spell = observation.span.spell != kNoSpell;
+  const bool is_frozen = has_spell && drift.sway().is_frozen(observation.span.spell);
+  Eigen::Vector2d value = observation.value;
+  if (is_frozen) value += Js * drift.sway().spell(observation.span.spell).mean;
+  const Eigen::Vector2d Wy = W * value;
   const Eigen::Matrix<double, 2, CalibrationIndex::kSize> WJc = W * Jc;
   A_ += H.transpose() * W * H;
   b_ += H.transpose() * Wy;
@@ -54,6 +59,17 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   // The second node first: making room for it must not drop the terms that the first reference points to.
   add_to(observation.span.first + 1, second);
   add_to(observation.span.first, first).C_next += first * second * JdWJd;
+  if (!has_spell || is_frozen) return;
+
+  SpellTerms& terms = terms_of_spell(observation.span.spell, observation.span.first, drift);
+  const Eigen::Matrix<double, 2, kSwaySize> WJs = W * Js;
+  const SpellTerms::NodeBlock JdWJs = Jd.transpose() * WJs;
+  terms.B += H.transpose() * WJs;
+  terms.C_calibration += Jc.transpose() * WJs;
+  terms.C_node[0] += first * JdWJs;
+  terms.C_node[1] += second * JdWJs;
+  terms.C_own += Js.transpose() * WJs;
+  terms.g -= Js.transpose() * Wy;
 }
 
 void Landmark::add_prior(const PointInformation& prior) {
@@ -75,6 +91,89 @@ void Landmark::merge(const Landmark& other, const DriftTimeline& drift) {
     ours.C_next += theirs.C_next;
     ours.g += theirs.g;
   }
+  std::for_each(other.spells_begin(), other.spells_end(), [&](const SpellTerms& theirs) {
+    if (drift.sway().is_frozen(theirs.number)) return;
+    SpellTerms& ours = terms_of_spell(theirs.number, theirs.node, drift);
+    ours.B += theirs.B;
+    ours.C_calibration += theirs.C_calibration;
+    ours.C_node[0] += theirs.C_node[0];
+    ours.C_node[1] += theirs.C_node[1];
+    ours.C_own += theirs.C_own;
+    ours.g += theirs.g;
+  });
+}
+
+/// With J for a look's Jacobian by the node that goes, those by its neighbours grow by (1 - w) J and w J, and
+/// the look's value by J times the deviation.
+void Landmark::thin(const ThinnedNode& node, const DriftTimeline& drift) {
+  if (const NodeTerms* const found = find(node.number)) {
+    const NodeTerms gone = *found;
+    const NodeTerms* const before = find(node.number - 1);
+    const NodeMatrix C_before = before == nullptr ? NodeMatrix::Zero() : before->C_next;
+    const double second = node.weight_of_next, first = 1.0 - second;
+    const NodeVector& e = node.deviation;
+    const NodeVector g = gone.g - gone.C_own * e;
+    b_ += gone.B * e;
+    g_ -= gone.C_calibration * e;
+    std::move(found + 1, end(), nodes_.begin() + (found - begin()));
+    --node_count_;
+    const auto add_to = [&](std::uint32_t number, double weight, const NodeMatrix& C_shared) -> NodeTerms& {
+      NodeTerms& terms = terms_of(number, drift);
+      terms.B += weight * gone.B;
+      terms.C_calibration += weight * gone.C_calibration;
+      terms.C_own += weight * (C_shared + C_shared.transpose()) + weight * weight * gone.C_own;
+      terms.g += weight * g - C_shared * e;
+      return terms;
+    };
+    add_to(node.number + 1, second, gone.C_next.transpose());
+    add_to(node.number - 1, first, C_before).C_next =
+        second * C_before + first * gone.C_next + first * second * gone.C_own;
+  }
+  for (std::size_t i = 0; i < node_count_; ++i) {
+    if (nodes_[i].number < node.number) ++nodes_[i].number;
+  }
+}
+
+Landmark::NodeTerms* Landmark::find(std::uint32_t node) {
+  const auto end = nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_);
+  const auto place =
+      std::find_if(nodes_.begin(), end, [node](const NodeTerms& terms) { return terms.number == node; });
+  return place == end ? nullptr : &*place;
+}
+
+Landmark::SpellTerms& Landmark::terms_of_spell(std::uint32_t spell, std::uint32_t node,
+                                               const DriftTimeline& drift) {
+  std::size_t place = spell_count_;
+  while (place > 0 && spells_[place - 1].number > spell) --place;
+  if (place > 0 && spells_[place - 1].number == spell) return spells_[place - 1];
+  if (spell_count_ == kMaxSpells) {
+    drop_oldest_spell(drift.sway().spell(spells_[0].number).mean);
+    return terms_of_spell(spell, node, drift);
+  }
+  const auto begin = spells_.begin() + static_cast<std::ptrdiff_t>(place);
+  std::move_backward(begin, spells_.begin() + static_cast<std::ptrdiff_t>(spell_count_),
+                     spells_.begin() + static_cast<std::ptrdiff_t>(spell_count_ + 1));
+  ++spell_count_;
+  *begin = SpellTerms{};
+  begin->number = spell;
+  begin->node = node;
+  return *begin;
+}
+
+void Landmark::freeze_spell(std::uint32_t spell, const DriftTimeline& drift) {
+  if (spell_count_ > 0 && spells_[0].number == spell) drop_oldest_spell(drift.sway().spell(spell).mean);
+}
+
+void Landmark::drop_oldest_spell(const SwayVector& value) {
+  const SpellTerms& gone = spells_[0];
+  b_ += gone.B * value;
+  g_ -= gone.C_calibration * value;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    if (NodeTerms* const node = find(gone.node + i)) node->g -= gone.C_node[i] * value;
+  }
+  std::move(spells_.begin() + 1, spells_.begin() + static_cast<std::ptrdiff_t>(spell_count_),
+            spells_.begin());
+  --spell_count_;
 }
 
 void Landmark::freeze(std::uint32_t node, const DriftTimeline& drift) {
@@ -94,6 +193,11 @@ void Landmark::freeze_latency(double latency_s) {
     terms.g -= terms.C_calibration.row(kLatency).transpose() * latency_s;
     terms.C_calibration.row(kLatency).setZero();
   }
+  for (std::size_t i = 0; i < spell_count_; ++i) {
+    SpellTerms& terms = spells_[i];
+    terms.g -= terms.C_calibration.row(kLatency).transpose() * latency_s;
+    terms.C_calibration.row(kLatency).setZero();
+  }
 }
 
 void Landmark::drop_oldest(const NodeVector& value) {
@@ -101,6 +205,13 @@ void Landmark::drop_oldest(const NodeVector& value) {
   b_ += gone.B * value;
   g_ -= gone.C_calibration * value;
   if (node_count_ > 1 && nodes_[1].number == gone.number + 1) nodes_[1].g -= gone.C_next.transpose() * value;
+  for (std::size_t i = 0; i < spell_count_; ++i) {
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      if (spells_[i].node + side != gone.number) continue;
+      spells_[i].g -= spells_[i].C_node[side].transpose() * value;
+      spells_[i].C_node[side].setZero();
+    }
+  }
   std::move(nodes_.begin() + 1, nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_), nodes_.begin());
   --node_count_;
 }
@@ -108,6 +219,8 @@ void Landmark::drop_oldest(const NodeVector& value) {
 Point Landmark::position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
   Point sum = b_ + B_ * calibration;
   for (const NodeTerms& terms : *this) sum += terms.B * drift.node(terms.number).mean;
+  for (std::size_t i = 0; i < spell_count_; ++i)
+    sum += spells_[i].B * drift.sway().spell(spells_[i].number).mean;
   return A_.inverse() * sum;
 }
 

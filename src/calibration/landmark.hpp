@@ -41,6 +41,13 @@ struct LandmarkObservation {
   NodeSpan span;
   Eigen::Matrix2d information;  ///< inverse covariance of the noise
 
+  /// By the sway: east and north as the vehicle, turned as the camera.
+  Eigen::Matrix<double, 2, kSwaySize> sway_jacobian() const {
+    Eigen::Matrix<double, 2, kSwaySize> jacobian;
+    jacobian << Eigen::Matrix2d::Identity(), calibration_jacobian.middleCols<2>(CalibrationIndex::kBoresight);
+    return jacobian;
+  }
+
   /// H.
   Eigen::Matrix<double, 2, kPointSize> point_jacobian() const { return point_jacobian_of(slope); }
 
@@ -73,6 +80,21 @@ class Landmark {
     NodeVector g = NodeVector::Zero();
   };
 
+  /// What ties the object to one spell of the sway.
+  struct SpellTerms {
+    std::uint32_t number = 0;
+    std::uint32_t node = 0;  ///< of the drift, the one before
+    Eigen::Matrix<double, kPointSize, kSwaySize> B = Eigen::Matrix<double, kPointSize, kSwaySize>::Zero();
+    Eigen::Matrix<double, CalibrationIndex::kSize, kSwaySize> C_calibration =
+        Eigen::Matrix<double, CalibrationIndex::kSize, kSwaySize>::Zero();
+    using NodeBlock = Eigen::Matrix<double, kNodeSize, kSwaySize>;
+    std::array<NodeBlock, 2> C_node = {NodeBlock::Zero(), NodeBlock::Zero()};  ///< the one before, and after
+    SwayMatrix C_own = SwayMatrix::Zero();
+    SwayVector g = SwayVector::Zero();
+  };
+  /// As many as may be estimated.
+  static constexpr std::size_t kMaxSpells = 8;
+
   void add(const LandmarkObservation& observation, const DriftTimeline& drift);
 
   /// What is known of the object from elsewhere: a surveyed position, the height of the ground.
@@ -84,10 +106,17 @@ class Landmark {
   /// Takes the node's estimate as true from now on.
   void freeze(std::uint32_t node, const DriftTimeline& drift);
 
+  /// Puts the nodes before and after in place of one between them; those before it are called by a number
+  /// higher by one from now on.
+  void thin(const ThinnedNode& node, const DriftTimeline& drift);
+
+  /// Takes the spell's estimate as true from now on.
+  void freeze_spell(std::uint32_t spell, const DriftTimeline& drift);
+
   /// Takes the latency of all looks so far as known: those to come are of another.
   void freeze_latency(double latency_s);
 
-  /// x = A^-1 (b + B c + sum of B d over the nodes).
+  /// x = A^-1 (b + B c + sum of B d over the nodes and the spells).
   Point position(const CalibrationVector& calibration, const DriftTimeline& drift) const;
 
   const PointMatrix& A() const { return A_; }
@@ -97,10 +126,15 @@ class Landmark {
   const CalibrationVector& g() const { return g_; }
   const NodeTerms* begin() const { return nodes_.data(); }
   const NodeTerms* end() const { return nodes_.data() + node_count_; }
+  const SpellTerms* spells_begin() const { return spells_.data(); }
+  const SpellTerms* spells_end() const { return spells_.data() + spell_count_; }
 
  private:
   NodeTerms& terms_of(std::uint32_t node, const DriftTimeline& drift);
   void drop_oldest(const NodeVector& value);
+  SpellTerms& terms_of_spell(std::uint32_t spell, std::uint32_t node, const DriftTimeline& drift);
+  NodeTerms* find(std::uint32_t node);
+  void drop_oldest_spell(const SwayVector& value);
 
   PointMatrix A_ = PointMatrix::Zero();
   Point b_ = Point::Zero();
@@ -109,6 +143,8 @@ class Landmark {
   CalibrationVector g_ = CalibrationVector::Zero();
   std::array<NodeTerms, kMaxNodes> nodes_{};  // ordered by number
   std::size_t node_count_ = 0;
+  std::array<SpellTerms, kMaxSpells> spells_{};  // ordered by number
+  std::size_t spell_count_ = 0;
 };
 
 }  // namespace geoloc

@@ -85,6 +85,9 @@ void SharedErrorEstimate::take(const ArrowheadSolver::Solution& solution) {
   calibration = solution.calibration();
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)
     drift.node(number).mean = solution.node(number);
+  SwayTimeline& sway = drift.sway();
+  for (std::uint32_t number = sway.begin(); number != sway.end(); ++number)
+    sway.spell(number).mean = solution.spell(number);
   calibration_root = root_of(calibration);
   drift_root = root_of(solution.newest_node_covariance());
 }

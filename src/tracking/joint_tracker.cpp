@@ -67,7 +67,7 @@ double own_variance_m2(std::size_t row, const TrackTable& tracks, const Arrowhea
 JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points,
                            int max_detections)
     : config_(checked(config)),
-      solver_(config.prior, config.drift.max_nodes),
+      solver_(config.prior, config.drift),
       errors_(accuracy_of(config), {config.prior.height_m, config.prior.sigma_height_m},
               NoiseEstimate(config.sigma_attitude_deg * kRadPerDeg), config.drift, solver_),
       heights_(config.drift.max_nodes),
@@ -157,6 +157,7 @@ FrameShift JointTracker::shift_of(const JointFrame& frame, const Eigen::Vector2d
 void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
   place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
+  errors_.is_opening = opening_looks_.is_open();
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
   const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
@@ -166,7 +167,7 @@ void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   const bool may_be_twins = weigh_missed(looks.at_rest, frame, shift, config_, detection_rate_, tracks_);
   if (may_be_twins) schedule_.request();
   cover_known_points(located, shift);
-  absorb_matched(looks.at_rest, explanation, frame);
+  absorb_matched(looks, explanation, frame);
   begin_tentative(looks.at_rest, explanation, located.ground, frame);
   tell_neighbours_apart(looks.at_rest, explanation, errors_, config_.merge_radius_m, tracks_);
   remove_improbable();
@@ -278,12 +279,7 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   tracks_.clear_evidence();
   DriftTimeline& drift = errors_.drift;
   const NodeSpan span = cover(vehicle);
-  while (drift.size() > config_.drift.max_nodes) {
-    opening_looks_.close();
-    for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
-    heights_.freeze_oldest(drift);
-    drift.freeze_oldest();
-  }
+  bound_head();
   measure_height(located, span);
   return {located.projector,
           located.view,
@@ -311,6 +307,41 @@ void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation
 }
 
 /// Where the state has stepped, tracks seen before say less of what comes.
+void JointTracker::bound_head() {
+  DriftTimeline& drift = errors_.drift;
+  while (drift.sway().is_full()) freeze_oldest_spell();
+  while (drift.size() > config_.drift.max_nodes) {
+    opening_looks_.close();
+    if (const auto node = drift.next_to_thin()) {
+      thin(*node);
+    } else {
+      freeze_oldest_node();
+    }
+  }
+}
+
+void JointTracker::thin(const ThinnedNode& node) {
+  DriftTimeline& drift = errors_.drift;
+  const SwayTimeline& sway = drift.sway();
+  while (sway.size() > 1 && sway.spell(sway.begin()).node <= node.number) freeze_oldest_spell();
+  for (RestingObject& track : tracks_) track.landmark->thin(node, drift);
+  heights_.thin(node);
+  drift.thin(node);
+}
+
+void JointTracker::freeze_oldest_node() {
+  DriftTimeline& drift = errors_.drift;
+  for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
+  heights_.freeze_oldest(drift);
+  drift.freeze_oldest();
+}
+
+void JointTracker::freeze_oldest_spell() {
+  SwayTimeline& sway = errors_.drift.sway();
+  for (RestingObject& track : tracks_) track.landmark->freeze_spell(sway.begin(), errors_.drift);
+  sway.freeze_oldest();
+}
+
 NodeSpan JointTracker::cover(const VehicleState& vehicle) {
   const StateSteps before = std::exchange(steps_, vehicle.steps);
   const double sigma_m = errors_.accuracy.wandering_sigma_m();
@@ -334,8 +365,9 @@ void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShif
                       is_covered);
 }
 
-void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
+void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanation& explanation,
                                   const JointFrame& frame) {
+  const std::vector<Look>& looks = frame_looks.at_rest;
   const double found = detection_rate_.probability();
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const JointAssociation::Match& match = explanation.match_of_look[i];
@@ -344,9 +376,12 @@ void JointTracker::absorb_matched(const std::vector<Look>& looks, const Explanat
     track.existence.hit(found, density(match.innovation, match.innovation_covariance),
                         looks[i].clutter_density);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
-    add_to_sums(track, looks[i], errors_);
+    Look look = looks[i];
+    look.observation =
+        look_maker_.linearised_at(track.position_in_enu, look, frame_looks.share_attitude, frame, errors_);
+    add_to_sums(track, look, errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
-    recent_looks_.add(track.track.id, frame.time(), looks[i]);
+    recent_looks_.add(track.track.id, frame.time(), look);
     confirm_if_probable(track, config_.confirm_probability);
   }
 }
@@ -408,6 +443,9 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
   follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
     opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
+  errors_.drift.sway().set_variance(
+      errors_.noise.position_factor() * fast_position_variance_m2(config_, errors_),
+      errors_.noise.attitude_variance_rad2());
   const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_);
   if (!solution) return std::nullopt;
   errors_.take(*solution);

@@ -63,9 +63,12 @@ class JointTracker final : public Tracker {
   FrameFit fit(const LocatedFrame& located, const JointFrame& frame);
   FrameShift shift_of(const JointFrame& frame, const Eigen::Vector2d& common_shift) const;
   NodeSpan cover(const VehicleState& vehicle);
+  void bound_head();
+  void thin(const ThinnedNode& node);
+  void freeze_oldest_node();
+  void freeze_oldest_spell();
   void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
-  void absorb_matched(const std::vector<Look>& looks, const Explanation& explanation,
-                      const JointFrame& frame);
+  void absorb_matched(const FrameLooks& looks, const Explanation& explanation, const JointFrame& frame);
   void begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,
                        const GroundModel& ground, const JointFrame& frame);
   void remove_improbable();

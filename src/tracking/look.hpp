@@ -9,12 +9,14 @@
 #include "calibration/landmark.hpp"
 #include "calibration/shared_error.hpp"
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/projection/ground_fix.hpp"
 
 namespace geoloc {
 
 /// A detection of the present frame, with all that a track needs of it.
 struct Look {
   Detection detection;
+  GroundFix fix;
   LandmarkObservation observation;
   /// East, north [m] where its ray is at the height of the ground below the vehicle (terrain_m), corrected by
   /// calibration and drift.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 
-#include "calibration/linearize.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "tracking/ground_prior.hpp"
 
@@ -16,15 +15,9 @@ namespace {
 
 using Index = CalibrationIndex;
 
-/// Covariances of what a look's position is off by, besides the detector's noise [m^2].
-struct Noise {
-  Eigen::Matrix2d time;
-  Eigen::Matrix2d time_of_run;
-  Eigen::Matrix2d attitude;
-  Eigen::Matrix2d position;
-  Eigen::Matrix2d interpolation;  // of the vehicle's state between two samples
-  Eigen::Matrix2d bend;           // of the same in a bend: not alike for the looks of a frame
-};
+/// Share of the lasting noise of attitude and position that the sway's spells do not follow: what it does
+/// within a spell.
+constexpr double kRestOfNoise = 0.25;
 
 /// A detector that fires twice on one object: the more confident box came first.
 bool is_duplicate(const Look& look, const std::vector<Look>& kept, double duplicate_share) {
@@ -39,21 +32,6 @@ Eigen::Matrix2d mean_frame_noise(const std::vector<Look>& looks) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
   for (const Look& look : looks) sum += look.frame_noise;
   return looks.empty() ? sum : sum / static_cast<double>(looks.size());
-}
-
-Noise noise_of(const FixJacobians& jacobians, const RunTimeError& run_time, const JointTrackerConfig& config,
-               const SharedErrorEstimate& errors, const VehicleState& vehicle) {
-  const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
-  const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
-  const double position_variance = errors.noise.position_factor() * fast_position_variance_m2(config, errors);
-  const Eigen::Matrix2d per_time = ground_velocity * ground_velocity.transpose();
-  return {std::pow(config.sigma_time_s, 2) * per_time,
-          std::pow(run_time.sigma_s, 2) * per_time,
-          errors.noise.attitude_variance_rad2() * turn * turn.transpose(),
-          position_variance * Eigen::Matrix2d::Identity(),
-          std::pow(vehicle.sigma_turn_rad, 2) * turn * turn.transpose() +
-              std::pow(vehicle.sigma_position_m, 2) * Eigen::Matrix2d::Identity(),
-          std::pow(vehicle.sigma_bend_rad, 2) * turn * turn.transpose()};
 }
 
 /// The calibration that the fix already holds: all but the offset.
@@ -102,10 +80,86 @@ FrameLooks& LookMaker::make(const std::vector<LocatedDetection>& detections, con
   return looks_;
 }
 
+/// Covariances of what a look's position is off by [m^2].
+struct LookMaker::Noise {
+  Eigen::Matrix2d pixel;
+  Eigen::Matrix2d time;
+  Eigen::Matrix2d time_of_run;
+  Eigen::Matrix2d attitude;
+  Eigen::Matrix2d position;
+  Eigen::Matrix2d interpolation;  // of the vehicle's state between two samples
+  Eigen::Matrix2d bend;           // of the same in a bend: not alike for the looks of a frame
+};
+
+LookMaker::Noise LookMaker::noise_of(const Detection& detection, const GroundFix& fix,
+                                     const FixJacobians& jacobians, const JointFrame& frame,
+                                     const SharedErrorEstimate& errors) const {
+  const VehicleState& vehicle = frame.view.vehicle;
+  const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
+  const Eigen::Matrix2d per_turn = turn * turn.transpose();
+  const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
+  const Eigen::Matrix2d per_time = ground_velocity * ground_velocity.transpose();
+  const double position_variance =
+      errors.noise.position_factor() * fast_position_variance_m2(config_, errors);
+  return {errors.noise.pixel_factor() * fix.covariance(detection.sigma_px_or(config_.sigma_px)),
+          std::pow(config_.sigma_time_s, 2) * per_time,
+          std::pow(frame.run_time.sigma_s, 2) * per_time,
+          errors.noise.attitude_variance_rad2() * per_turn,
+          position_variance * Eigen::Matrix2d::Identity(),
+          std::pow(vehicle.sigma_turn_rad, 2) * per_turn +
+              std::pow(vehicle.sigma_position_m, 2) * Eigen::Matrix2d::Identity(),
+          std::pow(vehicle.sigma_bend_rad, 2) * per_turn};
+}
+
 /// The attitude's error is the same in all looks of a frame: N of them with N times its variance say as much
-/// of it as one does, and would be N independent witnesses without. What the position does within seconds is
-/// shared too, but for the most part known from the nodes; it counts once. What the stamps of a run of frames
-/// are off by is shared by all looks of all of them.
+/// of it as one does, and would be N independent witnesses without. So it is with the stamp's. What the
+/// position does within seconds is shared too, but for the most part known from the nodes; it counts once.
+/// What the stamps of a run of frames are off by is shared by all looks of all of them.
+LandmarkObservation LookMaker::observation(const GroundFix& fix, const FixJacobians& jacobians,
+                                           const Noise& noise, double looks_that_share,
+                                           const JointFrame& frame, const SharedErrorEstimate& errors) {
+  const NoiseRepetition& repetition = frame.repetition;
+  const double rest = errors.is_opening ? 1.0 : kRestOfNoise;
+  LandmarkObservation observation;
+  observation.value = fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
+  observation.slope = -jacobians.height;
+  observation.calibration_jacobian = jacobians.calibration;
+  observation.node_jacobian = jacobians.node;
+  observation.span = frame.span;
+  observation.information =
+      (noise.pixel + noise.bend + looks_that_share * noise.time +
+       frame.run_time.frames * looks_that_share * noise.time_of_run +
+       rest * (repetition.of_attitude * looks_that_share * noise.attitude +
+               repetition.of_position * noise.position) +
+       repetition.of_interpolation * looks_that_share * (noise.interpolation + noise.bend))
+          .inverse();
+  return observation;
+}
+
+/// With o the camera, h its height above the plane and k = h / (h - z), the frame shows an object at (x, z)
+/// on the plane at p = o + k (x - o), so that dp = k (dx - s dz) with s the slope of its ray.
+LandmarkObservation LookMaker::linearised_at(const Point& position_in_enu, const Look& look,
+                                             double looks_that_share, const JointFrame& frame,
+                                             const SharedErrorEstimate& errors) const {
+  const FrameShift shift{errors.calibration.offset_m(), frame.drift.head<2>(), Eigen::Vector2d::Zero(),
+                         frame.ground_height_m - errors.calibration.height_m()};
+  const Eigen::Vector3d& camera_in_enu = frame.view.enu_from_camera.translation;
+  const Eigen::Vector3d ray = shift.shown(Eigen::Vector3d(position_in_enu)) - camera_in_enu;
+  const double height_m = camera_in_enu.z() - frame.projector.config().ground_height_above_home_m;
+  const double k = height_m / -ray.z();
+  if (!(k > 0.0)) return look.observation;
+  GroundFix expected = look.fix;
+  expected.position_in_enu = (camera_in_enu + k * ray).head<2>();
+  expected.range_m = k * ray.norm();
+  expected.direction_in_enu = ray.normalized();
+  const FixJacobians jacobians = jacobians_of(expected, frame.view, height_m);
+  LandmarkObservation there =
+      observation(expected, jacobians, noise_of(look.detection, expected, jacobians, frame, errors),
+                  looks_that_share, frame, errors);
+  there.value += (look.fix.position_in_enu - expected.position_in_enu) / k;
+  return there;
+}
+
 Look LookMaker::make_look(const LocatedDetection& located, double looks_that_share, const JointFrame& frame,
                           const SharedErrorEstimate& errors) const {
   const GroundFix& fix = located.fix;
@@ -113,26 +167,14 @@ Look LookMaker::make_look(const LocatedDetection& located, double looks_that_sha
   const double height_m =
       frame.view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const FixJacobians jacobians = jacobians_of(fix, frame.view, height_m);
-  const Noise noise = noise_of(jacobians, frame.run_time, config_, errors, frame.view.vehicle);
+  const Noise noise = noise_of(located.detection, fix, jacobians, frame, errors);
 
   Look look;
   look.detection = located.detection;
-  look.pixel_noise =
-      errors.noise.pixel_factor() * fix.covariance(located.detection.sigma_px_or(config_.sigma_px)) +
-      noise.bend;
+  look.fix = fix;
+  look.pixel_noise = noise.pixel + noise.bend;
   look.frame_noise = noise.attitude + noise.position + noise.interpolation;
-  look.observation.value =
-      fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
-  look.observation.slope = -jacobians.height;
-  look.observation.calibration_jacobian = jacobians.calibration;
-  look.observation.node_jacobian = jacobians.node;
-  look.observation.span = frame.span;
-  look.observation.information =
-      (look.pixel_noise + noise.time + frame.run_time.frames * looks_that_share * noise.time_of_run +
-       frame.repetition.of_attitude * looks_that_share * noise.attitude +
-       frame.repetition.of_position * noise.position +
-       frame.repetition.of_interpolation * looks_that_share * (noise.interpolation + noise.bend))
-          .inverse();
+  look.observation = observation(fix, jacobians, noise, looks_that_share, frame, errors);
   look.position =
       look.observation.value + jacobians.calibration * errors.calibration.mean + jacobians.node * frame.drift;
   look.camera_height_m = height_m + errors.calibration.height_m() - frame.view.lifted_m;

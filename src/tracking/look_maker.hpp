@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "calibration/linearize.hpp"
 #include "calibration/shared_error_estimate.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "tracking/joint_frame.hpp"
@@ -29,7 +30,21 @@ class LookMaker {
   Look make_look(const LocatedDetection& located, double looks_that_share, const JointFrame& frame,
                  const SharedErrorEstimate& errors) const;
 
+  /// The look, linearised where the object should be seen. Jacobians at the place where it was seen would
+  /// hold the look's own noise, which draws the estimate towards zero (errors in variables): in weakly
+  /// observed directions, such as the scale of the map, by more than the noise itself. As it is where the
+  /// object should not be in view.
+  LandmarkObservation linearised_at(const Point& position_in_enu, const Look& look, double looks_that_share,
+                                    const JointFrame& frame, const SharedErrorEstimate& errors) const;
+
  private:
+  struct Noise;
+  Noise noise_of(const Detection& detection, const GroundFix& fix, const FixJacobians& jacobians,
+                 const JointFrame& frame, const SharedErrorEstimate& errors) const;
+  static LandmarkObservation observation(const GroundFix& fix, const FixJacobians& jacobians,
+                                         const Noise& noise, double looks_that_share, const JointFrame& frame,
+                                         const SharedErrorEstimate& errors);
+
   const JointTrackerConfig& config_;
   FrameLooks looks_;
 };

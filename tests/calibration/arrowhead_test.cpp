@@ -181,7 +181,7 @@ class ArrowheadProblem : public ::testing::Test {
 
   DriftTimeline drift_{DriftConfig{}};
   CalibrationPrior prior_;
-  ArrowheadSolver solver_{prior_, DriftConfig{}.max_nodes};
+  ArrowheadSolver solver_{prior_, DriftConfig{}};
   Calibration calibration_;
   HeightLog heights_{DriftConfig{}.max_nodes};
   std::vector<Landmark> landmarks_;
@@ -261,7 +261,7 @@ TEST_F(ArrowheadProblem, AFrozenComponentStaysWhereItIs) {
   prior.latency_s = 0.123;
   prior.sigma_latency_s = 0.0;
   make(4, 100, 20.0);
-  ArrowheadSolver frozen(prior, DriftConfig{}.max_nodes);
+  ArrowheadSolver frozen(prior, DriftConfig{});
   solve(frozen, all());
   EXPECT_NEAR(calibration_.latency_s(), 0.123, 1e-6);
   EXPECT_LT(calibration_.sigma(CalibrationIndex::kLatency), 1e-6);
@@ -355,7 +355,7 @@ TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
     for (const Landmark& landmark : landmarks) {
       if (landmark.A()(0, 0) > 0.0) seen.push_back(&landmark);
     }
-    ArrowheadSolver solver(CalibrationPrior{}, kNodes);
+    ArrowheadSolver solver(CalibrationPrior{}, config);
     for (int round = 0; round < 10; ++round) {
       const auto solution = solver.solve(seen, kFlight, drift);
       ASSERT_TRUE(solution);
@@ -416,7 +416,7 @@ TEST(ArrowheadSolver, StatesThePriorInRadiansMetresAndSeconds) {
   prior.sigma_boresight_y_deg = 5.0;
   prior.sigma_boresight_z_deg = 0.0;
   prior.sigma_latency_s = 0.2;
-  const ArrowheadSolver solver(prior, 10);
+  const ArrowheadSolver solver(prior, DriftConfig{});
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   CalibrationVector mean, sigma;
   mean << kDegree, -2.0 * kDegree, 3.0 * kDegree, 0.1, -0.4, 0.0, 0.0;

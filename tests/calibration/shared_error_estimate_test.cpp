@@ -55,7 +55,7 @@ class SharedErrors : public ::testing::Test {
     return *solver_.solve({&landmarks_[0], &landmarks_[1]}, prior_, estimate_.drift);
   }
 
-  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
   PositionAccuracy accuracy_{1.0, 0.2, 0.02};
   HeightPrior height_prior_{0.4, 1.5};
   SharedErrorEstimate estimate_{accuracy_, height_prior_, testing::kNoise, DriftConfig{}, solver_};
@@ -74,7 +74,7 @@ TEST_F(SharedErrors, BeginAsThePrior) {
 TEST(FrozenSharedErrors, HaveARootBesideTheOthers) {
   CalibrationPrior prior;
   prior.sigma_boresight_y_deg = 0.0;
-  const ArrowheadSolver solver(prior, DriftConfig{}.max_nodes);
+  const ArrowheadSolver solver(prior, DriftConfig{});
   const SharedErrorEstimate estimate({1.0, 0.2, 0.02}, {0.0, 2.0}, testing::kNoise, DriftConfig{}, solver);
   EXPECT_NEAR(estimate.calibration_root(Index::kBoresight + 1, Index::kBoresight + 1), 0.0, 1e-8);
   for (const int free : {Index::kBoresight, Index::kBoresight + 2, Index::kLatency, Index::kHeight})
@@ -116,7 +116,7 @@ TEST_F(SharedErrors, WhitenJacobians) {
 TEST_F(SharedErrors, ThatAreExactlyKnownAreNoReasonToFail) {
   CalibrationPrior prior;
   prior.sigma_latency_s = prior.sigma_height_m = 0.0;
-  const ArrowheadSolver solver(prior, 10);
+  const ArrowheadSolver solver(prior, DriftConfig{});
   SharedErrorEstimate estimate(accuracy_, {3.0, 0.0}, testing::kNoise, DriftConfig{}, solver);
   EXPECT_TRUE(estimate.calibration_root.allFinite());
   EXPECT_TRUE(estimate.drift_root.allFinite());

@@ -36,7 +36,7 @@ class TwoTracks : public ::testing::Test {
   bool may_be_one_of_two() { return may_be_one(tracks_[0], tracks_[1], solution(), noise_, config_); }
 
   JointTrackerConfig config_;
-  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
   SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{10};

@@ -57,7 +57,7 @@ class MatchedLooks : public ::testing::Test {
   }
 
   JointTrackerConfig config_;
-  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
   SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{20};

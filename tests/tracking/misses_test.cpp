@@ -38,7 +38,7 @@ class Misses : public ::testing::Test {
   testing::LookingDown camera_;
   JointTrackerConfig config_;
   DetectionRate detection_rate_{kFound};
-  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
   SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{4};

@@ -190,7 +190,7 @@ class OpeningFrames : public ::testing::Test {
   Projector projector_{{}, CameraIntrinsics{}};
   JointTrackerConfig config_;
   LookMaker maker_{config_, 20};
-  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
   SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{10};

@@ -67,7 +67,7 @@ class Agreement : public ::testing::Test {
     errors_.calibration.covariance(CalibrationIndex::kHeight, CalibrationIndex::kHeight) = sigma_m * sigma_m;
   }
 
-  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}.max_nodes};
+  ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
   SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   NodeSpan span_;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/sway.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace geoloc {
+namespace {
+
+/// As many as the looks that are linearised anew may lie in (OpeningLooks).
+constexpr std::size_t kRemembered = 256;
+
+}  // namespace
+
+SwayTimeline::SwayTimeline(const DriftConfig& config)
+    : parts_between_nodes_(
+          std::max(1, static_cast<int>(std::lround(config.node_spacing_s / config.spell_s)))),
+      max_spells_(config.max_spells),
+      time_constant_s_(config.sway_time_constant_s),
+      spells_(kRemembered) {}
+
+std::uint32_t SwayTimeline::cover(VehicleTime time, std::uint32_t node, double share) {
+  if (max_spells_ == 0) return kNoSpell;
+  const int part = std::clamp(static_cast<int>(share * parts_between_nodes_), 0, parts_between_nodes_ - 1);
+  if (size() > 0) {
+    const Spell& newest = spell(end_ - 1);
+    if (newest.node == node && newest.part >= part) return end_ - 1;
+  }
+  Spell next;
+  next.begin = time;
+  next.node = node;
+  next.part = part;
+  if (size() > 0) {
+    const Spell& before = spell(end_ - 1);
+    next.transition = std::exp(-std::abs(seconds(time - before.begin)) / time_constant_s_);
+    next.innovation_share = std::max(1e-6, 1.0 - next.transition * next.transition);
+    next.mean = next.transition * before.mean;
+  }
+  spell(end_) = next;
+  return end_++;
+}
+
+void SwayTimeline::freeze_oldest() {
+  Spell& heir = spell(begin_ + 1);
+  heir.prior_mean = heir.transition * spell(begin_).mean;
+  heir.transition = 0.0;
+  ++begin_;
+}
+
+}  // namespace geoloc
