@@ -136,6 +136,7 @@ int main(int argc, char** argv) {
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
   if (program->page) console.say("page: " + program->page->url());
   run_until_stopped(*program, console, stop);
+  program->session.finish();
 
   program->recorder.finish();
   const io::RunRecord record = program->record();

@@ -46,9 +46,10 @@ void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& fra
     take_what_was_known(feed, frame, session);
     const PendingFrame pending{frame.captured_at, frame.detections, frame.time_sigma_s};
     const bool is_located = session.process(pending);
-    if (on_frame && !on_frame(pending, is_located)) return;
+    if (on_frame && !on_frame(pending, is_located)) return session.finish();
   }
   while (!feed.is_empty()) feed.take();  // a live run counts what comes after its last frame, too
+  session.finish();
 }
 
 }  // namespace geoloc::apps

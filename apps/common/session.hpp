@@ -40,6 +40,9 @@ class Session final : private io::TelemetrySink {
   /// Locates the frame with what is known now. False, and counted, where its state is not known.
   bool process(const PendingFrame& frame);
 
+  /// No more frames come: objects are as good as they get.
+  void finish() { geolocator_.finish(); }
+
   /// Frames given to process(), and those of them that had no state.
   std::uint64_t frames() const { return geolocator_.counters().frames + frames_without_clock_; }
   std::uint64_t frames_unusable() const {

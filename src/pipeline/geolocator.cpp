@@ -83,6 +83,7 @@ class Geolocator::Implementation {
 
   void add(const RangeSample& sample);
   bool process(const FrameDetections& frame);
+  void finish();
 
   const GeolocatorConfig config;
   StateProvider state;
@@ -111,6 +112,7 @@ class Geolocator::Implementation {
   bool has_object_ = false;    // a confirmed one
   std::vector<Detection> selected_;
   std::optional<HostTime> last_frame_;
+  FrameStamp last_stamp_{};  // of those located
   std::vector<LocatedDetection> turned_located_;  // scratch of track_either_way
 };
 
@@ -145,6 +147,7 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
     return false;
   }
   ++counters.frames_located;
+  last_stamp_ = stamp;
   if (config.terrain && ground.is_level())
     ground = GroundModel(config.terrain, *state.local_frame(), config.joint.sigma_ground_m);
   view = lifted(*nominal_view);
@@ -156,6 +159,11 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
     tracker->update(located_frame(stamp, view, located));
   }
   return true;
+}
+
+void Geolocator::Implementation::finish() {
+  if (counters.frames_located == 0) return;
+  tracker->finish(located_frame(last_stamp_, view, located));
 }
 
 LocatedFrame Geolocator::Implementation::located_frame(
@@ -277,6 +285,10 @@ std::optional<NoState> Geolocator::missing_state(VehicleTime captured_at) const 
 
 bool Geolocator::process(const FrameDetections& frame) {
   return implementation_->process(frame);
+}
+
+void Geolocator::finish() {
+  implementation_->finish();
 }
 
 const std::vector<Track>& Geolocator::tracks() const {

@@ -78,7 +78,7 @@ std::optional<LatencyPrior> ClockWatch::observe(FrameStamp stamp,
 
 /// Evidence that the latency is another one: objects that should be in view are missed, while boxes show
 /// nothing known, as they would with all of them displaced. A frame without boxes is none: the detector may
-/// see nothing.
+/// see nothing. Neither is a frame of a vehicle that hovers, which shows the same at any latency.
 void ClockWatch::weigh(const FrameBoxes& frame, const PlaceFit& fit, double believed_s) {
   is_proven_ = false;
   const auto tally = fit.tally(frame, believed_s, 0.0, places_);
@@ -88,7 +88,7 @@ void ClockWatch::weigh(const FrameBoxes& frame, const PlaceFit& fit, double beli
   const double displaced = expected.found * (tally->seen + tally->missed);
   const double usually_strange = kNewPerFrame + expected.strange_per_frame;
   double evidence = strange * std::log1p(displaced / usually_strange) - displaced - tally->likelihood;
-  if (strange == 0) evidence = std::min(evidence, 0.0);
+  if (strange == 0 || !fit.could_tell_latency(frame, believed_s, places_)) evidence = std::min(evidence, 0.0);
   doubt_ = std::clamp(doubt_ + evidence, 0.0, kMostDoubt);
   is_proven_ = !is_holding_ && !is_in_doubt() && tally->seen > 0 && tally->seen >= tally->missed &&
                fit.tells_latency(frame, believed_s, places_);

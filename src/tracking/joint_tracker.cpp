@@ -108,6 +108,13 @@ void JointTracker::update(const LocatedFrame& located) {
   publish(located.projector);
 }
 
+/// No other latency was found that explains the frames in doubt better.
+void JointTracker::finish(const LocatedFrame& last) {
+  waiting_.release();
+  while (waiting_.due() > 0) process_next(last);
+  publish(last.projector);
+}
+
 /// Frames wait while the clock is in doubt, and are made up for a few at a time.
 void JointTracker::process_in_turn(const LocatedFrame& located) {
   constexpr int kFramesAtOnce = 4;

@@ -36,6 +36,7 @@ class JointTracker final : public Tracker {
   JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points, int max_detections);
 
   void update(const LocatedFrame& frame) override;
+  void finish(const LocatedFrame& last) override;
 
   const std::vector<Track>& tracks() const override { return published_; }
   const TrackCounters& counters() const override { return book_.counters; }

@@ -23,7 +23,7 @@ constexpr double kReach = 1.5;
 /// Boxes so near to each other are of one cluster: chance finds one as often as there are others around.
 constexpr double kAround_px = 150.0;
 /// Another latency is told from this one where it shows objects so many radii aside, this much later.
-constexpr double kRadiiToTell = 1.5, kOther_s = 0.3;
+constexpr double kRadiiToTell = 1.5, kOther_s = 0.3, kFarOther_s = 1.0;
 constexpr double kLeastDistance_m = 0.5;
 
 }  // namespace
@@ -150,19 +150,32 @@ int PlaceFit::strange_boxes(const FrameBoxes& frame, double latency_s,
 
 bool PlaceFit::tells_latency(const FrameBoxes& frame, double latency_s,
                              const std::vector<WatchedPlace>& places) const {
-  const auto view = viewer_.at(frame.stamp, latency_s);
-  const auto other_view = viewer_.at(frame.stamp, latency_s + kOther_s);
-  if (!view || !other_view) return false;
   const auto is_seen_at = [&](const Eigen::Vector2d& pixel, double radius) {
     const auto end = frame.pixels.begin() + static_cast<std::ptrdiff_t>(frame.count);
     return std::any_of(frame.pixels.begin(), end,
                        [&](const auto& box) { return (box - pixel).squaredNorm() < radius * radius; });
   };
+  return any_that_moves(frame, latency_s, kOther_s, places, is_seen_at);
+}
+
+bool PlaceFit::could_tell_latency(const FrameBoxes& frame, double latency_s,
+                                  const std::vector<WatchedPlace>& places) const {
+  return any_that_moves(frame, latency_s, kFarOther_s, places,
+                        [](const Eigen::Vector2d&, double) { return true; });
+}
+
+/// Of the places shown, one that counts, and that another latency would show elsewhere.
+template <typename Counts>
+bool PlaceFit::any_that_moves(const FrameBoxes& frame, double latency_s, double other_by_s,
+                              const std::vector<WatchedPlace>& places, const Counts& counts) const {
+  const auto view = viewer_.at(frame.stamp, latency_s);
+  const auto other_view = viewer_.at(frame.stamp, latency_s + other_by_s);
+  if (!view || !other_view) return false;
   return std::any_of(places.begin(), places.end(), [&](const WatchedPlace& place) {
     const auto pixel = place.is_known ? shown(place.shown_in_enu, *view) : std::nullopt;
     if (!pixel) return false;
     const double radius = radius_px(place, *view, expected_.wandering_m);
-    if (radius > kMostRadius_px * size() || !is_seen_at(*pixel, radius)) return false;
+    if (radius > kMostRadius_px * size() || !counts(*pixel, radius)) return false;
     const auto other = viewer_.projector.reproject(place.shown_in_enu, other_view->enu_from_camera);
     return !other || (*other - *pixel).norm() > kRadiiToTell * radius;
   });

@@ -75,6 +75,11 @@ class PlaceFit {
   bool tells_latency(const FrameBoxes& frame, double latency_s,
                      const std::vector<WatchedPlace>& places) const;
 
+  /// Whether a known place should be seen that would not be if the latency was quite another: not where the
+  /// vehicle hovers.
+  bool could_tell_latency(const FrameBoxes& frame, double latency_s,
+                          const std::vector<WatchedPlace>& places) const;
+
   /// By how much the vehicle's position would have had to wander for the frame's boxes nearest to known
   /// places to show them.
   template <typename Use>
@@ -84,6 +89,9 @@ class PlaceFit {
   const WatchExpectation& expected() const { return expected_; }
 
  private:
+  template <typename Counts>
+  bool any_that_moves(const FrameBoxes& frame, double latency_s, double other_by_s,
+                      const std::vector<WatchedPlace>& places, const Counts& counts) const;
   struct Range {
     const WatchedPlace* begin;
     std::size_t count;

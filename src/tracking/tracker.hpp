@@ -41,6 +41,9 @@ class Tracker {
   /// Where counters().frames_turned rises, `frame.turned` was taken in its place.
   virtual void update(const LocatedFrame& frame) = 0;
 
+  /// No more frames come: those that wait for what later ones would tell are used. `last`: the newest one.
+  virtual void finish(const LocatedFrame& last) { (void)last; }
+
   /// Tentative and confirmed, in order of their ids.
   virtual const std::vector<Track>& tracks() const = 0;
   virtual const TrackCounters& counters() const = 0;

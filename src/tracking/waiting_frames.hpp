@@ -22,6 +22,9 @@ class WaitingFrames {
   /// There must be room. is_held: with all that were held before it, until one comes that is not.
   void add(const LocatedFrame& frame, bool is_held);
 
+  /// None is held any more.
+  void release() { held_ = 0; }
+
   /// Frames that wait and are not held.
   std::size_t due() const { return count_ - used_ - held_; }
 

@@ -16,7 +16,7 @@ struct DriftConfig {
   double sigma_up_m = 0.2;
   double yaw_time_constant_s = 60.0;
   double sigma_yaw_deg = 0.7;
-  int max_nodes = 24;  ///< where there are more, older ones are thinned out, the more the older they are
+  int max_nodes = 30;  ///< where there are more, older ones are thinned out, the more the older they are
 
   // The sway: what position and attitude are off by besides, for a second or so.
   double spell_s = 1.0;  ///< for which it is taken to be constant

@@ -67,6 +67,10 @@ class Geolocator {
   /// of the detections does not matter.
   bool process(const FrameDetections& frame);
 
+  /// No more frames come. Frames are held back, for 12 s at most, while a clock may have stepped: the last
+  /// ones are used now. process() may go on afterwards.
+  void finish();
+
   /// All objects, tentative and confirmed, in order of their ids.
   const std::vector<Track>& tracks() const;
 
