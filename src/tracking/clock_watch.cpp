@@ -121,8 +121,7 @@ void ClockWatch::score_held(const PlaceFit& fit) {
 /// The earlier one of the held frames that a frame is compared with.
 std::optional<std::size_t> ClockWatch::partner(std::size_t frame) const {
   for (std::size_t other = frame; other-- > 0;) {
-    const double apart_s =
-        seconds(held_[frame].stamp.captured_at_host - held_[other].stamp.captured_at_host);
+    const double apart_s = seconds(held_[frame].stamp.captured_at_host - held_[other].stamp.captured_at_host);
     if (apart_s > kMostApart_s) return std::nullopt;
     if (apart_s >= kLeastApart_s) return other;
   }

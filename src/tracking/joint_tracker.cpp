@@ -216,14 +216,17 @@ void JointTracker::watch_start(const LocatedFrame& located) {
 
 /// The same in mid-flight, where a clock has stepped.
 void JointTracker::watch_clock(const LocatedFrame& located) {
+  const double camera_height_m =
+      located.view.enu_from_camera.translation.z() - located.projector.config().ground_height_above_home_m;
   if (!clock_watch_.is_in_doubt())
     list_places(tracks_, errors_, config_.drift, located, proven_at_, clock_watch_.places());
-  const auto latency = clock_watch_.observe(
-      located.stamp, located.detections,
-      {located.viewer, located.projector, errors_, false, located.view.terrain_m},
-      {detection_rate_.probability(), clutter_rate_.per_frame(), config_.sigma_px,
-       std::sqrt(errors_.noise.attitude_variance_rad2()),
-       errors_.drift.position_scale() * errors_.accuracy.wandering_sigma_m()});
+  const auto latency =
+      clock_watch_.observe(located.stamp, located.detections,
+                           {located.viewer, located.projector, errors_, false, located.view.terrain_m},
+                           {detection_rate_.probability(), clutter_rate_.per_frame(), config_.sigma_px,
+                            std::sqrt(errors_.noise.attitude_variance_rad2()),
+                            std::hypot(errors_.drift.position_scale() * errors_.accuracy.wandering_sigma_m(),
+                                       std::sqrt(errors_.noise.attitude_variance_rad2()) * camera_height_m)});
   if (clock_watch_.proves()) proven_at_ = located.view.vehicle.time;
   if (latency) go_on_with_latency(*latency, located);
 }

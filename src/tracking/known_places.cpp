@@ -22,8 +22,7 @@ double wandered_since(VehicleTime then, VehicleTime now, double time_constant_s)
 /// By the newest drift node there is: the frame's own is not made yet.
 FrameShift shift_of(const LocatedFrame& frame, const SharedErrorEstimate& errors) {
   const NodeVector& drift = errors.drift.node(errors.drift.end() - 2).mean;
-  const double ground_height_m =
-      frame.projector.config().ground_height_above_home_m + frame.view.lifted_m;
+  const double ground_height_m = frame.projector.config().ground_height_above_home_m + frame.view.lifted_m;
   return {errors.calibration.offset_m(), drift.head<2>(), Eigen::Vector2d::Zero(),
           ground_height_m - errors.calibration.height_m()};
 }

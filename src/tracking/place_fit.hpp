@@ -39,7 +39,7 @@ struct WatchExpectation {
   double strange_per_frame;  ///< boxes that show nothing known
   double sigma_px;
   double sigma_attitude_rad;
-  double wandering_m;  ///< 1-sigma per axis
+  double wandering_m;  ///< 1-sigma per axis of the position, and of what the attitude makes of it
 };
 
 /// How well the boxes of frames fit places, at any latency: log likelihood ratios of "this box shows that

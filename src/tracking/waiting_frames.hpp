@@ -58,8 +58,8 @@ class WaitingFrames {
   std::vector<Entry> entries_;  // a ring
   std::size_t begin_ = 0;
   std::size_t count_ = 0;
-  std::size_t used_ = 0;  // the first ones
-  std::size_t held_ = 0;  // the last ones
+  std::size_t used_ = 0;               // the first ones
+  std::size_t held_ = 0;               // the last ones
   std::vector<Detection> detections_;  // a ring: those of all entries
   std::size_t detection_end_ = 0;
   std::size_t detection_count_ = 0;
