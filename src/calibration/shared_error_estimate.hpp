@@ -43,7 +43,7 @@ struct SharedErrorEstimate {
   DriftTimeline drift;
   HeightPrior height_prior;
   NoiseEstimate noise;
-  bool is_opening = true;  ///< the flight's first looks: little is known yet of how long its noise lasts
+  bool is_opening = true;                     ///< these are the flight's first looks
   std::optional<LatencyPrior> latency_prior;  ///< since a clock stepped
   Calibration calibration;
   /// Roots of the covariances, C = R R', of calibration and newest node: they whiten Jacobians.

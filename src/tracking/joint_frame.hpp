@@ -20,6 +20,9 @@ struct NoiseRepetition {
   double of_position = 1.0;
   double of_attitude = 1.0;
   double of_interpolation = 1.0;
+
+  /// Whether frames come so fast that the attitude's noise lasts from one to the next.
+  bool lasts() const { return of_attitude > 1.0; }
 };
 
 /// Tells how long the noise of one frame lasts, in frames of the present rate.

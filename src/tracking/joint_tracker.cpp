@@ -453,9 +453,10 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
   follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
     opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
+  const double lasting = frame.repetition.lasts() ? 1.0 : 0.0;
   errors_.drift.sway().set_variance(
-      errors_.noise.position_factor() * fast_position_variance_m2(config_, errors_),
-      errors_.noise.attitude_variance_rad2());
+      lasting * errors_.noise.position_factor() * fast_position_variance_m2(config_, errors_),
+      lasting * errors_.noise.attitude_variance_rad2());
   const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_);
   if (!solution) return std::nullopt;
   errors_.take(*solution);

@@ -15,9 +15,9 @@ namespace {
 
 using Index = CalibrationIndex;
 
-/// Share of the lasting noise of attitude and position that the sway's spells do not follow: what it does
-/// within a spell.
-constexpr double kRestOfNoise = 0.25;
+/// Share of a lasting noise that the sway does not follow: what it does within a spell. All of it counts at
+/// first, while little is known of how long it lasts.
+constexpr double kWithinSpell = 0.25;
 
 /// A detector that fires twice on one object: the more confident box came first.
 bool is_duplicate(const Look& look, const std::vector<Look>& kept, double duplicate_share) {
@@ -119,7 +119,7 @@ LandmarkObservation LookMaker::observation(const GroundFix& fix, const FixJacobi
                                            const Noise& noise, double looks_that_share,
                                            const JointFrame& frame, const SharedErrorEstimate& errors) {
   const NoiseRepetition& repetition = frame.repetition;
-  const double rest = errors.is_opening ? 1.0 : kRestOfNoise;
+  const double rest = repetition.lasts() && !errors.is_opening ? kWithinSpell : 1.0;
   LandmarkObservation observation;
   observation.value = fix.position_in_enu - jacobians.calibration * applied(errors.calibration, frame.view);
   observation.slope = -jacobians.height;
