@@ -66,13 +66,14 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
 }
 
 /// The one whose neighbours are nearest to each other for their age, so that the nodes' distance grows with
-/// it. A straight line across a step of the state would say nothing of the node.
+/// it. A straight line across a step of the state, or from one clock to another, would say nothing of the
+/// node.
 std::optional<ThinnedNode> DriftTimeline::next_to_thin() const {
   std::optional<std::uint32_t> densest;
   double least = std::numeric_limits<double>::infinity();
   for (std::uint32_t number = begin_ + 1; number + 2 < end_; ++number) {
     const DriftNode &before = node(number - 1), &after = node(number + 1);
-    if (node(number).is_after_step() || after.is_after_step()) continue;
+    if (!node(number).goes_on() || !after.goes_on()) continue;
     const double per_age = seconds(after.time - before.time) / seconds(node(end_ - 1).time - after.time);
     if (!(per_age < least)) continue;
     least = per_age;

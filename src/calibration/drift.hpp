@@ -39,6 +39,8 @@ struct DriftNode {
   NodeVector step_variance = NodeVector::Zero();
 
   bool is_after_step() const { return step_variance.maxCoeff() > 0.0; }
+  /// Whether it continues the node before smoothly: there is no step between them, and no new clock.
+  bool goes_on() const { return !is_after_step() && transition.maxCoeff() > 0.0; }
 };
 
 /// What takes the place of a node that is thinned out: d = (1 - w) d(before) + w d(after) + deviation.

@@ -106,6 +106,9 @@ void Landmark::merge(const Landmark& other, const DriftTimeline& drift) {
 /// With J for a look's Jacobian by the node that goes, those by its neighbours grow by (1 - w) J and w J, and
 /// the look's value by J times the deviation.
 void Landmark::thin(const ThinnedNode& node, const DriftTimeline& drift) {
+  // Where all places are taken there is none for two neighbours in place of one node.
+  if (node_count_ == kMaxNodes && find(node.number - 1) == nullptr && find(node.number + 1) == nullptr)
+    freeze(node.number, drift);
   if (const NodeTerms* const found = find(node.number)) {
     const NodeTerms gone = *found;
     const NodeTerms* const before = find(node.number - 1);

@@ -17,6 +17,7 @@ constexpr FlightPrior kFlight{0.7, 1.3, 0.3};
 /// Height of the ground under all objects, and its 1-sigma.
 constexpr double kGround_m = -0.8, kSigmaGround_m = 2.0;
 constexpr double kWanderSigma_m = 0.4;
+constexpr double kSwayVariance_m2 = 0.8, kTurnVariance_rad2 = 0.5;
 
 PointInformation on_the_ground() {
   PointInformation ground;
@@ -25,7 +26,8 @@ PointInformation on_the_ground() {
   return ground;
 }
 
-/// Random looks at random objects on the ground, over some drift nodes.
+/// Random looks at random objects on the ground, over some drift nodes and spells of the sway, of which the
+/// last are estimated.
 class ArrowheadProblem : public ::testing::Test {
  protected:
   struct Look {
@@ -48,6 +50,9 @@ class ArrowheadProblem : public ::testing::Test {
           order == Order::kByTurns ? number % objects : number * objects / static_cast<std::size_t>(looks);
       auto& o = look.observation;
       o.span = drift_.cover(VehicleTime{from_seconds(duration_s * i / looks)}, kWanderSigma_m);
+      for (; spells_drawn_ < drift_.sway().end(); ++spells_drawn_)
+        for (double& value : drift_.sway().spell(spells_drawn_).mean) value = normal(random);
+      while (drift_.sway().is_full()) freeze_spell();
       for (double& value : o.calibration_jacobian.reshaped()) value = normal(random);
       for (double& value : o.node_jacobian.reshaped()) value = normal(random);
       o.slope = {normal(random), normal(random)};
@@ -56,7 +61,38 @@ class ArrowheadProblem : public ::testing::Test {
       for (double& value : root.reshaped()) value = normal(random);
       o.information = root * root.transpose() + Eigen::Matrix2d::Identity();
       looks_.push_back(look);
-      landmarks_[look.object].add(o, drift_);
+      if (!is_late(number)) landmarks_[look.object].add(o, drift_);
+    }
+    for (std::size_t i = 0; i < looks_.size(); ++i)
+      if (is_late(i)) landmarks_[looks_[i].object].add(looks_[i].observation, drift_);
+  }
+
+  /// Those that are taken in after all others, most of them when their spell is frozen: linearised anew.
+  static bool is_late(std::size_t look) { return look % 7 == 3; }
+
+  /// As the tracker does.
+  void freeze_spell() {
+    for (Landmark& landmark : landmarks_) landmark.freeze_spell(drift_.sway().begin(), drift_);
+    drift_.sway().freeze_oldest();
+  }
+
+  /// Leaves a node out, as the tracker does; looks and heights are told of the line that takes its place.
+  void thin(const ThinnedNode& node) {
+    while (drift_.sway().spell(drift_.sway().begin()).node <= node.number) freeze_spell();
+    for (Landmark& landmark : landmarks_) landmark.thin(node, drift_);
+    heights_.thin(node);
+    drift_.thin(node);
+    for (Look& look : looks_) {
+      auto& o = look.observation;
+      const double second = o.span.weight_of_second, w = node.weight_of_next;
+      if (o.span.first == node.number) {
+        o.value += (1.0 - second) * o.node_jacobian * node.deviation;
+        o.span.weight_of_second = second + (1.0 - second) * w;
+      } else if (o.span.first + 1 == node.number) {
+        o.value += second * o.node_jacobian * node.deviation;
+        o.span.weight_of_second = second * w;
+      }
+      if (o.span.first < node.number) ++o.span.first;
     }
   }
 
@@ -73,15 +109,23 @@ class ArrowheadProblem : public ::testing::Test {
     calibration_ = solution->calibration();
     for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
       drift_.node(number).mean = solution->node(number);
+    SwayTimeline& sway = drift_.sway();
+    for (std::uint32_t number = sway.begin(); number != sway.end(); ++number)
+      sway.spell(number).mean = solution->spell(number);
     return *solution;
   }
   ArrowheadSolver::Solution solve() { return solve(solver_, all()); }
 
-  /// The same problem as one dense least-squares system over objects, calibration and nodes, solved by QR.
+  /// The same problem as one dense least-squares system over objects, spells, calibration and nodes, solved
+  /// by QR.
   struct Dense {
-    Eigen::VectorXd solution;  // objects (3 each), calibration, nodes
+    Eigen::VectorXd solution;  // objects (3 each), spells, calibration, nodes
     Eigen::MatrixXd covariance;
+    Eigen::Index spells;       // where they begin
     Eigen::Index calibration;  // where it begins
+    Eigen::Index spell_column(std::uint32_t place) const {
+      return spells + kSwaySize * static_cast<Eigen::Index>(place);
+    }
     Eigen::Index node_column(std::uint32_t place) const {
       return calibration + CalibrationIndex::kSize + kNodeSize * static_cast<Eigen::Index>(place);
     }
@@ -107,10 +151,14 @@ class ArrowheadProblem : public ::testing::Test {
   };
   Dense dense(const std::vector<std::size_t>& object_of) const {
     const auto objects = static_cast<Eigen::Index>(1 + *std::max_element(object_of.begin(), object_of.end()));
-    const Eigen::Index head = 3 * objects, nodes = drift_.size();
+    const SwayTimeline& sway = drift_.sway();
+    const Eigen::Index spells = 3 * objects, head = spells + kSwaySize * sway.size(), nodes = drift_.size();
     const Eigen::Index size = head + CalibrationIndex::kSize + kNodeSize * nodes;
     const auto node_column = [&](std::uint32_t number) {
       return head + CalibrationIndex::kSize + kNodeSize * static_cast<Eigen::Index>(number - drift_.begin());
+    };
+    const auto spell_column = [&](std::uint32_t number) {
+      return spells + kSwaySize * static_cast<Eigen::Index>(number - sway.begin());
     };
     std::vector<Eigen::RowVectorXd> rows;
     std::vector<double> values;
@@ -122,10 +170,18 @@ class ArrowheadProblem : public ::testing::Test {
       row.middleCols<2>(object).setIdentity();
       row.col(object + 2) = -o.slope;
       row.middleCols<CalibrationIndex::kSize>(head) = -o.calibration_jacobian;
-      row.middleCols<kNodeSize>(node_column(o.span.first)) -= (1 - o.span.weight_of_second) * o.node_jacobian;
+      if (o.span.first >= drift_.begin())
+        row.middleCols<kNodeSize>(node_column(o.span.first)) -=
+            (1 - o.span.weight_of_second) * o.node_jacobian;
       row.middleCols<kNodeSize>(node_column(o.span.first + 1)) -= o.span.weight_of_second * o.node_jacobian;
+      Eigen::Vector2d value = o.value;
+      if (sway.is_frozen(o.span.spell)) {
+        value += o.sway_jacobian() * sway.spell(o.span.spell).mean;
+      } else {
+        row.middleCols<kSwaySize>(spell_column(o.span.spell)) = -o.sway_jacobian();
+      }
       row = root * row;
-      const Eigen::Vector2d value = root * o.value;
+      value = root * value;
       for (int i = 0; i < 2; ++i) {
         rows.push_back(row.row(i));
         values.push_back(value[i]);
@@ -157,11 +213,40 @@ class ArrowheadProblem : public ::testing::Test {
         values.push_back(root * node.prior_mean[i]);
       }
     }
+    for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
+      const Spell& spell = sway.spell(number);
+      for (int i = 0; i < kSwaySize; ++i) {
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Unit(size, spell_column(number) + i);
+        if (number != sway.begin()) row[spell_column(number - 1) + i] = -spell.transition;
+        const double sigma =
+            std::sqrt(spell.innovation_share * (i < 2 ? kSwayVariance_m2 : kTurnVariance_rad2));
+        rows.push_back(row / sigma);
+        values.push_back(spell.prior_mean[i] / sigma);
+      }
+    }
     Eigen::MatrixXd A(static_cast<Eigen::Index>(rows.size()), size);
     for (std::size_t i = 0; i < rows.size(); ++i) A.row(static_cast<Eigen::Index>(i)) = rows[i];
     const Eigen::VectorXd b =
         Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-    return {A.colPivHouseholderQr().solve(b), (A.transpose() * A).inverse(), head};
+    return {A.colPivHouseholderQr().solve(b), (A.transpose() * A).inverse(), spells, head};
+  }
+
+  void expect_head_of(const ArrowheadSolver::Solution& solution, const Dense& expected) const {
+    EXPECT_LT((calibration_.mean - expected.calibration_mean()).norm(), 1e-8);
+    EXPECT_LT((calibration_.covariance - expected.calibration_covariance()).norm(), 1e-8);
+    EXPECT_LT(
+        (solution.newest_node_covariance() - expected.covariance.bottomRightCorner<kNodeSize, kNodeSize>())
+            .norm(),
+        1e-8);
+    for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number) {
+      const Eigen::Index column = expected.node_column(number - drift_.begin());
+      EXPECT_LT((solution.node(number) - expected.solution.segment<kNodeSize>(column)).norm(), 1e-8);
+    }
+    const SwayTimeline& sway = drift_.sway();
+    for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
+      const Eigen::Index column = expected.spell_column(number - sway.begin());
+      EXPECT_LT((solution.spell(number) - expected.solution.segment<kSwaySize>(column)).norm(), 1e-8);
+    }
   }
 
   void expect_objects_of(const ArrowheadSolver::Solution& solution, const Dense& expected) const {
@@ -179,26 +264,72 @@ class ArrowheadProblem : public ::testing::Test {
     }
   }
 
-  DriftTimeline drift_{DriftConfig{}};
+  void SetUp() override { drift_.sway().set_variance(kSwayVariance_m2, kTurnVariance_rad2); }
+
+  static DriftConfig config() {
+    DriftConfig config;
+    config.node_spacing_s = 5.0;
+    config.max_nodes = 36;
+    return config;
+  }
+
+  DriftTimeline drift_{config()};
   CalibrationPrior prior_;
-  ArrowheadSolver solver_{prior_, DriftConfig{}};
+  ArrowheadSolver solver_{prior_, config()};
   Calibration calibration_;
-  HeightLog heights_{DriftConfig{}.max_nodes};
+  HeightLog heights_{config().max_nodes};
   std::vector<Landmark> landmarks_;
   std::vector<Look> looks_;
+  std::uint32_t spells_drawn_ = 0;
 };
 
 TEST_F(ArrowheadProblem, SolutionAndCovariancesAreThoseOfDenseLeastSquares) {
   make(5, 200, 40.0);
+  ASSERT_EQ(drift_.sway().size(), config().max_spells);
+  ASSERT_EQ(drift_.sway().begin(), 34U) << "the others are frozen";
   const ArrowheadSolver::Solution solution = solve();
   const Dense expected = dense({0, 1, 2, 3, 4});
-  EXPECT_LT((calibration_.mean - expected.calibration_mean()).norm(), 1e-8);
-  EXPECT_LT((calibration_.covariance - expected.calibration_covariance()).norm(), 1e-8);
-  EXPECT_LT(
-      (solution.newest_node_covariance() - expected.covariance.bottomRightCorner<kNodeSize, kNodeSize>())
-          .norm(),
-      1e-8);
+  expect_head_of(solution, expected);
   expect_objects_of(solution, expected);
+}
+
+/// So short a flight that no spell is frozen yet; more variance of the sway than is known of anything else.
+TEST_F(ArrowheadProblem, AllSpellsOfTheFirstSecondsAreThoseOfDenseLeastSquares) {
+  make(3, 80, 6.0);
+  ASSERT_EQ(drift_.sway().begin(), 0U);
+  const ArrowheadSolver::Solution solution = solve();
+  const Dense expected = dense({0, 1, 2});
+  expect_head_of(solution, expected);
+  expect_objects_of(solution, expected);
+}
+
+/// With none, it is as if it were not looked for.
+TEST_F(ArrowheadProblem, ASwayOfNoVarianceStaysWhereItIsExpected) {
+  drift_.sway().set_variance(0.0, 0.0);
+  make(3, 80, 5.9);
+  const ArrowheadSolver::Solution solution = solve();
+  const SwayTimeline& sway = drift_.sway();
+  for (std::uint32_t number = sway.begin(); number != sway.end(); ++number)
+    EXPECT_LT(solution.spell(number).norm(), 1e-8);
+}
+
+/// Nodes that a line has taken the place of, the first of them next to those of the spells.
+TEST_F(ArrowheadProblem, SolutionsAfterThinningAreThoseOfDenseLeastSquaresOnTheLine) {
+  make(5, 300, 60.0);
+  for (const double time_s : {2.0, 13.0, 18.0, 23.0, 59.0}) {
+    const auto first = static_cast<std::uint32_t>(time_s / 5.0);
+    heights_.add({first, time_s / 5.0 - first}, 0.4 + 0.01 * time_s, 0.3);
+  }
+  solve();
+  for (const std::uint32_t number : {10U, 2U, 5U, 7U, 6U, 8U}) {
+    const NodeVector deviation = NodeVector::LinSpaced(0.3, -0.1 * number);
+    thin({number, 0.2 + 0.05 * number, deviation});
+    const ArrowheadSolver::Solution solution = solve();
+    const Dense expected = dense({0, 1, 2, 3, 4});
+    expect_head_of(solution, expected);
+    expect_objects_of(solution, expected);
+  }
+  EXPECT_EQ(drift_.size(), 7);
 }
 
 /// As on a flight, each object is seen at a few nodes only: none before those concerns it.
@@ -221,7 +352,9 @@ TEST_F(ArrowheadProblem, HeightsSeenBesidesAreRowsOfDenseLeastSquares) {
 TEST_F(ArrowheadProblem, ObjectsSeenOneAfterAnotherAreThoseOfDenseLeastSquares) {
   make(5, 400, 170.0, Order::kOneAfterAnother);
   const ArrowheadSolver::Solution solution = solve();
-  expect_objects_of(solution, dense({0, 1, 2, 3, 4}));
+  const Dense expected = dense({0, 1, 2, 3, 4});
+  expect_head_of(solution, expected);
+  expect_objects_of(solution, expected);
 }
 
 TEST_F(ArrowheadProblem, MergingSumsIsHavingSeenOneObject) {
@@ -261,7 +394,7 @@ TEST_F(ArrowheadProblem, AFrozenComponentStaysWhereItIs) {
   prior.latency_s = 0.123;
   prior.sigma_latency_s = 0.0;
   make(4, 100, 20.0);
-  ArrowheadSolver frozen(prior, DriftConfig{});
+  ArrowheadSolver frozen(prior, config());
   solve(frozen, all());
   EXPECT_NEAR(calibration_.latency_s(), 0.123, 1e-6);
   EXPECT_LT(calibration_.sigma(CalibrationIndex::kLatency), 1e-6);
@@ -277,6 +410,52 @@ TEST_F(ArrowheadProblem, FreezingANodeAtItsEstimateChangesNoEstimate) {
   solve();
   EXPECT_LT((calibration_.mean - before).norm(), 1e-8);
   EXPECT_LT((landmarks_[2].position(calibration_.mean, drift_) - position).norm(), 1e-8);
+}
+
+/// Spells one by one, then nodes that spells are tied to; and what is learnt then is what it was.
+TEST_F(ArrowheadProblem, FreezingASpellAtItsEstimateChangesNoEstimate) {
+  for (const double duration_s : {40.0, 3.9}) {
+    drift_ = DriftTimeline(config());
+    drift_.sway().set_variance(kSwayVariance_m2, kTurnVariance_rad2);
+    spells_drawn_ = 0;
+    looks_.clear();
+    make(4, 160, duration_s);
+    solve();
+    const CalibrationVector before = calibration_.mean;
+    const Point position = landmarks_[2].position(calibration_.mean, drift_);
+    const NodeVector newest = drift_.node(drift_.end() - 1).mean;
+    const SwayVector sway = drift_.sway().spell(drift_.sway().end() - 1).mean;
+    while (drift_.sway().size() > 1) {
+      freeze_spell();
+      if (drift_.sway().size() == 2) {
+        for (Landmark& landmark : landmarks_) landmark.freeze(drift_.begin(), drift_);
+        drift_.freeze_oldest();
+      }
+      solve();
+      EXPECT_LT((calibration_.mean - before).norm(), 1e-8);
+      EXPECT_LT((landmarks_[2].position(calibration_.mean, drift_) - position).norm(), 1e-8);
+      EXPECT_LT((drift_.node(drift_.end() - 1).mean - newest).norm(), 1e-8);
+      EXPECT_LT((drift_.sway().spell(drift_.sway().end() - 1).mean - sway).norm(), 1e-8);
+    }
+  }
+}
+
+/// Spells that have lost a node, or both.
+TEST_F(ArrowheadProblem, FrozenNodesAndSpellsAreThoseOfDenseLeastSquares) {
+  make(4, 160, 8.9);
+  solve();
+  for (Look& look : looks_) {  // of nodes that are frozen next: what is left of their terms is a value
+    auto& o = look.observation;
+    if (o.span.first != drift_.begin()) continue;
+    o.value += (1.0 - o.span.weight_of_second) * o.node_jacobian * drift_.node(drift_.begin()).mean;
+  }
+  for (Landmark& landmark : landmarks_) landmark.freeze(drift_.begin(), drift_);
+  drift_.freeze_oldest();
+  freeze_spell();
+  const ArrowheadSolver::Solution solution = solve();
+  const Dense expected = dense({0, 1, 2, 3});
+  expect_head_of(solution, expected);
+  expect_objects_of(solution, expected);
 }
 
 /// By its definition from the dense solution: the mean square of the nodes' steps, in units of the prior's.
@@ -318,7 +497,9 @@ TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
   constexpr int kNodes = 150, kNodesInView = 12;
   constexpr double kNoise_m = 0.02;
   DriftConfig config;
+  config.node_spacing_s = 5.0;
   config.max_nodes = kNodes;
+  config.max_spells = 0;  // nothing sways
   std::mt19937 random(4);
   std::normal_distribution<double> normal;
   const auto drawn = [&] { return Eigen::Vector2d(normal(random), normal(random)); };

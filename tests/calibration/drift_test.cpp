@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "geoloc/geometry/angles.hpp"
@@ -244,6 +246,245 @@ TEST(DriftTimeline, KeepsAsManyNodesAsItMayWhateverTheirNumbers) {
     }
     EXPECT_EQ(drift.size(), most);
   }
+}
+
+// --- Thinning: older nodes make room for new ones.
+
+/// Leaves out as many as need be.
+void thin_to(DriftTimeline& drift, int most) {
+  while (drift.size() > most) {
+    const auto node = drift.next_to_thin();
+    ASSERT_TRUE(node);
+    drift.thin(*node);
+  }
+}
+
+/// Nodes in order of time, so many seconds before the newest.
+std::vector<double> ages_of(const DriftTimeline& drift) {
+  std::vector<double> ages;
+  for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)
+    ages.push_back(time_of(drift, drift.end() - 1) - time_of(drift, number));
+  return ages;
+}
+
+TEST(ThinnedDrift, ReachesBackToTheStartOfAnHourWithAsManyNodesAsItMay) {
+  const DriftConfig config;
+  DriftTimeline drift(config);
+  for (int second = 0; second <= 3600; ++second) {
+    cover(drift, second);
+    thin_to(drift, config.max_nodes);
+    ASSERT_LE(drift.size(), config.max_nodes);
+    ASSERT_EQ(time_of(drift, drift.begin()), 0.0);
+  }
+  EXPECT_EQ(drift.size(), config.max_nodes);
+}
+
+/// The node that goes is the one whose neighbours' ages have the least ratio, so that this is no more than
+/// the geometric mean over all that may go. The product of the ratios is that of the two oldest ages over
+/// that of the two youngest, of one and two spacings.
+double largest_gap_per_age(const DriftConfig& config, double duration_s) {
+  const double ages = duration_s / config.node_spacing_s;
+  return std::pow(ages * ages / 2.0, 1.0 / (config.max_nodes - 2)) - 1.0;
+}
+
+TEST(ThinnedDrift, HasNodesTheFartherApartTheOlderTheyAre) {
+  const DriftConfig config;
+  DriftTimeline drift(config);
+  const double most_per_age = largest_gap_per_age(config, 3600.0 + config.node_spacing_s);
+  ASSERT_LT(most_per_age, 0.9);
+  for (int second = 0; second <= 3600; ++second) {
+    cover(drift, second);
+    thin_to(drift, config.max_nodes);
+    const std::vector<double> ages = ages_of(drift);
+    for (std::size_t i = 1; i < ages.size(); ++i) {
+      const double apart_s = ages[i - 1] - ages[i];
+      EXPECT_GE(apart_s, config.node_spacing_s - 1e-9);
+      EXPECT_LE(apart_s, std::max(config.node_spacing_s + 1e-9, most_per_age * ages[i]))
+          << second << " s, node " << i;
+    }
+  }
+  const std::vector<double> ages = ages_of(drift);
+  const auto gap_s = [&](std::size_t i) { return ages[i] - ages[i + 1]; };
+  for (std::size_t i = 0; i + 5 < ages.size(); ++i) EXPECT_GE(gap_s(i), gap_s(i + 4)) << "node " << i;
+  EXPECT_NEAR(gap_s(ages.size() - 2), config.node_spacing_s, 1e-9);
+  EXPECT_GT(gap_s(0), 100.0 * config.node_spacing_s);
+}
+
+/// So looks and readings of the last seconds may be taken back, or come late.
+TEST(ThinnedDrift, LeavesTheNewestNodesWhereTheyAre) {
+  const DriftConfig config;
+  DriftTimeline drift(config), whole(config_with(config.node_spacing_s, 2000));
+  for (int i = 0; i <= 1000; ++i) {
+    const double time_s = 0.7 * i;
+    const NodeSpan span = cover(drift, time_s), expected = cover(whole, time_s);
+    for (DriftTimeline* one : {&drift, &whole})
+      one->node(span.first + 1).mean = ramp(std::sin(time_s), std::cos(time_s));
+    thin_to(drift, config.max_nodes);
+    ASSERT_EQ(span.first, expected.first);
+    ASSERT_EQ(span.weight_of_second, expected.weight_of_second);
+    ASSERT_EQ(drift.at(span), whole.at(expected));
+    ASSERT_GE(drift.end() - drift.begin_of_fine(), std::min(drift.end(), 4U));
+    for (std::uint32_t number = drift.begin_of_fine(); number != drift.end(); ++number) {
+      ASSERT_EQ(drift.node(number).time, whole.node(number).time);
+      ASSERT_EQ(drift.node(number).mean, whole.node(number).mean);
+    }
+  }
+}
+
+/// Nodes with a step between them, and a mean that tells them apart.
+class DriftToThin : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    for (const double time_s : {0.0, 6.0, 11.0, 16.0}) cover(drift_, time_s);
+    drift_.cover_after_step(VehicleTime{from_seconds(22.0)}, kSigmaPosition_m, kStep);
+    for (const double time_s : {27.0, 33.0, 37.0, 80.0, 86.0, 91.0}) cover(drift_, time_s);
+    for (std::uint32_t number = 0; number != drift_.end(); ++number)
+      drift_.node(number).mean = ramp(std::sin(number), std::cos(3.0 * number));
+    drift_.set_position_scale(1.7);
+  }
+
+  /// As next_to_thin() would, of any node.
+  ThinnedNode thinned(std::uint32_t number) const {
+    const DriftNode &before = drift_.node(number - 1), &here = drift_.node(number),
+                    &after = drift_.node(number + 1);
+    const double weight = seconds(here.time - before.time) / seconds(after.time - before.time);
+    return {number, weight, here.mean - (1.0 - weight) * before.mean - weight * after.mean};
+  }
+
+  /// Nodes that were there at first, in order, by when they are.
+  std::vector<double> times() const {
+    std::vector<double> times;
+    for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
+      times.push_back(time_of(drift_, number));
+    return times;
+  }
+
+  /// Without the rows and columns of a node.
+  static Eigen::MatrixXd without(const Eigen::MatrixXd& covariance, Eigen::Index gone) {
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+      if (i != gone) kept.push_back(i);
+    }
+    return covariance(kept, kept);
+  }
+
+  const NodeVector kStep{0.3, 0.2, 0.1, 0.02};
+  DriftTimeline drift_{distinct_config()};
+};
+
+/// Whichever goes, and one after another, of the ones before a step too.
+TEST_F(DriftToThin, ExpectsOfTheNodesThatRemainWhatItDid) {
+  while (const auto node = drift_.next_to_thin()) {
+    std::vector<Eigen::MatrixXd> expected;
+    for (int i = 0; i < kNodeSize; ++i)
+      expected.push_back(without(prior_covariance_of(drift_, i), node->number - drift_.begin()));
+    drift_.thin(*node);
+    for (int i = 0; i < kNodeSize; ++i) {
+      EXPECT_LT((prior_covariance_of(drift_, i) - expected[static_cast<std::size_t>(i)]).norm(), 1e-12)
+          << "node " << node->number << ", component " << i;
+    }
+  }
+  EXPECT_LT(drift_.size(), 9) << "some were left out";
+}
+
+/// A vehicle that reboots begins a new clock and a new drift: between its nodes and those before, there is no
+/// line, and no time.
+TEST(ThinnedDrift, LeavesOutNoNodeOnEitherSideOfAClockThatRanBack) {
+  for (const double begin_again_s : {0.0, 2.9, 41.0, 83.0}) {
+    DriftTimeline drift(config_with(5.0));
+    for (double time_s = 0.0; time_s < 100.0; time_s += 1.0) cover(drift, time_s);
+    for (int second = 0; second < 20; ++second) cover(drift, begin_again_s + second);
+    while (const auto node = drift.next_to_thin()) {
+      ASSERT_GT(node->weight_of_next, 0.0);
+      ASSERT_LT(node->weight_of_next, 1.0);
+      drift.thin(*node);
+    }
+    std::vector<double> times;
+    for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)
+      times.push_back(time_of(drift, number));
+    const std::vector<double> kept{0.0, 100.0, begin_again_s, begin_again_s + 15.0, begin_again_s + 20.0};
+    ASSERT_EQ(times.size(), kept.size()) << "the oldest, both sides of the break and the newest two";
+    for (std::size_t i = 0; i < kept.size(); ++i) EXPECT_NEAR(times[i], kept[i], 1e-6);
+  }
+}
+
+/// After a frozen node the prior's mean is what that leaves, which further nodes inherit.
+TEST_F(DriftToThin, ExpectsTheSameMeanOfTheNodesThatRemain) {
+  drift_.freeze_oldest();
+  const auto prior_means = [this] {
+    std::map<double, NodeVector> means;
+    NodeVector mean = NodeVector::Zero();
+    for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number) {
+      mean = drift_.node(number).prior_mean + drift_.node(number).transition.cwiseProduct(mean);
+      means[time_of(drift_, number)] = mean;
+    }
+    return means;
+  };
+  const auto expected = prior_means();
+  ASSERT_GT(expected.begin()->second.norm(), 0.1);
+  while (const auto node = drift_.next_to_thin()) {
+    drift_.thin(*node);
+    for (const auto& [time_s, mean] : prior_means()) EXPECT_LT((mean - expected.at(time_s)).norm(), 1e-12);
+  }
+}
+
+TEST_F(DriftToThin, KeepsTheNodesOnBothSidesOfAStepTheOldestAndTheNewestTwo) {
+  const std::vector<double> before = times();
+  const std::uint32_t end = drift_.end();
+  std::uint32_t step = drift_.begin();
+  while (!drift_.node(step).is_after_step()) ++step;
+  std::vector<double> kept{before.front(), before[step - 1], before[step]};
+  kept.insert(kept.end(), before.end() - 2, before.end());
+  while (const auto node = drift_.next_to_thin()) drift_.thin(*node);
+  EXPECT_EQ(drift_.end(), end);
+  const std::vector<double> after = times();
+  for (const double time_s : kept) EXPECT_EQ(std::count(after.begin(), after.end(), time_s), 1) << time_s;
+  EXPECT_LT(after.size(), before.size());
+  std::uint32_t steps = 0;
+  for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number) {
+    if (!drift_.node(number).is_after_step()) continue;
+    ++steps;
+    EXPECT_EQ(time_of(drift_, number), before[step]);
+    EXPECT_EQ(drift_.node(number).step_variance, kStep);
+  }
+  EXPECT_EQ(steps, 1U);
+}
+
+/// d = (1 - w) d(before) + w d(after) + deviation, with w by when it is.
+TEST_F(DriftToThin, SaysWhatTakesThePlaceOfANode) {
+  const auto node = drift_.next_to_thin();
+  ASSERT_TRUE(node);
+  const double w = node->weight_of_next;
+  const std::uint32_t n = node->number;
+  EXPECT_NEAR((1.0 - w) * time_of(drift_, n - 1) + w * time_of(drift_, n + 1), time_of(drift_, n), 1e-9);
+  const NodeVector value =
+      (1.0 - w) * drift_.node(n - 1).mean + w * drift_.node(n + 1).mean + node->deviation;
+  EXPECT_LT((value - drift_.node(n).mean).norm(), 1e-12);
+}
+
+TEST_F(DriftToThin, CallsTheNodesBeforeByANumberHigherByOne) {
+  for (const std::uint32_t gone : {3U, 8U, 6U}) {
+    std::map<std::uint32_t, double> expected;
+    for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
+      if (number != gone) expected[number < gone ? number + 1 : number] = time_of(drift_, number);
+    drift_.thin(thinned(gone));
+    std::map<std::uint32_t, double> seen;
+    for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
+      seen[number] = time_of(drift_, number);
+    EXPECT_EQ(seen, expected);
+    EXPECT_EQ(drift_.begin_of_fine(), gone == 3 ? 4U : 9U);
+  }
+}
+
+TEST(ThinnedDrift, HasNothingToThinWhereThereIsNoneBetweenOthers) {
+  DriftTimeline drift{DriftConfig{}};
+  for (const double time_s : {0.0, 4.0}) {
+    cover(drift, time_s);
+    EXPECT_FALSE(drift.next_to_thin());
+  }
+  cover(drift, 7.0);  // four nodes; the newest two are in use
+  ASSERT_EQ(drift.size(), 4);
+  EXPECT_EQ(drift.next_to_thin()->number, 1U);
 }
 
 }  // namespace

@@ -38,9 +38,15 @@ class SharedErrors : public ::testing::Test {
     const auto fill = [&](auto&& matrix) {
       for (double& value : matrix.reshaped()) value = normal(random);
     };
+    SwayTimeline& sway = estimate_.drift.sway();
+    sway.set_variance(0.3, 0.2);
     for (int i = 0; i < 60; ++i) {
       LandmarkObservation look;
       look.span = estimate_.drift.cover(VehicleTime{from_seconds(0.3 * i)}, 0.5);
+      while (sway.is_full()) {
+        for (Landmark& landmark : landmarks_) landmark.freeze_spell(sway.begin(), estimate_.drift);
+        sway.freeze_oldest();
+      }
       fill(look.calibration_jacobian);
       fill(look.node_jacobian);
       fill(look.value);
@@ -88,6 +94,12 @@ TEST_F(SharedErrors, TakeOverWhatWasSolved) {
   EXPECT_EQ(estimate_.calibration.covariance, again.calibration().covariance);
   for (std::uint32_t number = 0; number != estimate_.drift.end(); ++number)
     EXPECT_EQ(estimate_.drift.node(number).mean, again.node(number));
+  const SwayTimeline& sway = estimate_.drift.sway();
+  ASSERT_EQ(sway.size(), DriftConfig{}.max_spells);
+  for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
+    EXPECT_EQ(sway.spell(number).mean, again.spell(number));
+    EXPECT_GT(again.spell(number).norm(), 1e-3);
+  }
 }
 
 TEST_F(SharedErrors, AreLessWhereThePositionWandersLess) {
