@@ -262,7 +262,7 @@ void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation
   errors_.noise.learn_from_frame(fast_position_variance_m2(config_, errors_));
 }
 
-/// Where the state has stepped, tracks seen before say less of what comes.
+/// However long the flight: the older nodes are, the fewer stand for them.
 void JointTracker::bound_head() {
   DriftTimeline& drift = errors_.drift;
   while (drift.sway().is_full()) freeze_oldest_spell();
@@ -298,6 +298,7 @@ void JointTracker::freeze_oldest_spell() {
   sway.freeze_oldest();
 }
 
+/// Where the state has stepped, tracks seen before say less of what comes.
 NodeSpan JointTracker::cover(const VehicleState& vehicle) {
   const StateSteps before = std::exchange(steps_, vehicle.steps);
   const double sigma_m = errors_.accuracy.wandering_sigma_m();
