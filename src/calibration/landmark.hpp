@@ -67,7 +67,7 @@ class Landmark {
   using CalibrationRows = Eigen::Matrix<double, kPointSize, CalibrationIndex::kSize>;
   using NodeRows = Eigen::Matrix<double, kPointSize, kNodeSize>;
   /// More nodes than an object is usually seen in; beyond, its oldest is frozen.
-  static constexpr std::size_t kMaxNodes = 16;
+  static constexpr std::size_t kMaxNodes = 26;
 
   /// What ties the object to one drift node.
   struct NodeTerms {
