@@ -98,8 +98,8 @@ class DriftTimeline {
     sway_.clear();
   }
 
-  /// The node that its neighbours can best stand for, for its age. nullopt where there is none but the newest,
-  /// the oldest, and those at a step.
+  /// The node that its neighbours can best stand for, for its age. nullopt where there is none but the
+  /// newest, the oldest, and those at a step.
   std::optional<ThinnedNode> next_to_thin() const;
 
   /// Leaves out the node; those before it are called by a number higher by one from now on.

@@ -66,8 +66,9 @@ class Landmark {
  public:
   using CalibrationRows = Eigen::Matrix<double, kPointSize, CalibrationIndex::kSize>;
   using NodeRows = Eigen::Matrix<double, kPointSize, kNodeSize>;
-  /// More nodes than an object is usually seen in; beyond, its oldest is frozen.
-  static constexpr std::size_t kMaxNodes = 16;
+  /// No fewer than the drift keeps by default (DriftConfig::max_nodes): beyond, the oldest is frozen, and
+  /// what the object was off by then is taken for certain.
+  static constexpr std::size_t kMaxNodes = 30;
 
   /// What ties the object to one drift node.
   struct NodeTerms {

@@ -48,6 +48,13 @@ SharedErrorEstimate::SharedErrorEstimate(const PositionAccuracy& reported, const
       calibration_root(root_of(calibration)),
       drift_root(root_of(NodeMatrix(NodeMatrix::Zero()))) {}
 
+void SharedErrorEstimate::believe_in_sway(double expected_position_variance_m2, bool noise_lasts) {
+  constexpr double kShareOfOpening = 0.1;
+  const double share = !noise_lasts ? 0.0 : is_opening ? kShareOfOpening : 1.0;
+  drift.sway().set_variance(share * noise.position_factor() * expected_position_variance_m2,
+                            share * noise.attitude_variance_rad2());
+}
+
 /// As estimated, but so that the camera stays above the ground while its height is not known: rays must meet
 /// the ground somewhere, and where they do is linear in the height (LookMaker takes the difference).
 double SharedErrorEstimate::lift_m(double reported_height_above_ground_m) const {

@@ -57,6 +57,10 @@ struct SharedErrorEstimate {
 
   double offset_sigma_m() const { return accuracy.offset_sigma_m(drift.position_scale()); }
 
+  /// Takes the sway to be as strong as the noise of the frames. While the flight opens it is a tenth of that,
+  /// since the looks bear it all. Noise that does not last from one frame to the next is no sway.
+  void believe_in_sway(double expected_position_variance_m2, bool noise_lasts);
+
   /// For the next solution.
   FlightPrior prior() const {
     return {height_prior.mean_m, height_prior.sigma_at(calibration.height_m()), offset_sigma_m(),

@@ -112,7 +112,7 @@ class Geolocator::Implementation {
   bool has_object_ = false;    // a confirmed one
   std::vector<Detection> selected_;
   std::optional<HostTime> last_frame_;
-  FrameStamp last_stamp_{};  // of those located
+  FrameStamp last_stamp_{};                       // of those located
   std::vector<LocatedDetection> turned_located_;  // scratch of track_either_way
 };
 

@@ -316,7 +316,7 @@ void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation
   errors_.noise.learn_from_frame(fast_position_variance_m2(config_, errors_));
 }
 
-/// Where the state has stepped, tracks seen before say less of what comes.
+/// However long the flight: the older nodes are, the fewer stand for them.
 void JointTracker::bound_head() {
   DriftTimeline& drift = errors_.drift;
   while (drift.sway().is_full()) freeze_oldest_spell();
@@ -352,6 +352,7 @@ void JointTracker::freeze_oldest_spell() {
   sway.freeze_oldest();
 }
 
+/// Where the state has stepped, tracks seen before say less of what comes.
 NodeSpan JointTracker::cover(const VehicleState& vehicle) {
   const StateSteps before = std::exchange(steps_, vehicle.steps);
   const double sigma_m = errors_.accuracy.wandering_sigma_m();
@@ -453,10 +454,7 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
   follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
     opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
-  const double lasting = frame.repetition.lasts() ? 1.0 : 0.0;
-  errors_.drift.sway().set_variance(
-      lasting * errors_.noise.position_factor() * fast_position_variance_m2(config_, errors_),
-      lasting * errors_.noise.attitude_variance_rad2());
+  errors_.believe_in_sway(fast_position_variance_m2(config_, errors_), frame.repetition.lasts());
   const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_);
   if (!solution) return std::nullopt;
   errors_.take(*solution);

@@ -137,27 +137,33 @@ LandmarkObservation LookMaker::observation(const GroundFix& fix, const FixJacobi
 }
 
 /// With o the camera, h its height above the plane and k = h / (h - z), the frame shows an object at (x, z)
-/// on the plane at p = o + k (x - o), so that dp = k (dx - s dz) with s the slope of its ray.
+/// on the plane at p = o + k (x - o), so that dp = k (dx - s dz) with s the slope of its ray. A turn of the
+/// camera, or a pixel, moves the object by as much less than p as it is nearer.
 LandmarkObservation LookMaker::linearised_at(const Point& position_in_enu, const Look& look,
                                              double looks_that_share, const JointFrame& frame,
                                              const SharedErrorEstimate& errors) const {
   const FrameShift shift{errors.calibration.offset_m(), frame.drift.head<2>(), Eigen::Vector2d::Zero(),
                          frame.ground_height_m - errors.calibration.height_m()};
-  const Eigen::Vector3d& camera_in_enu = frame.view.enu_from_camera.translation;
-  const Eigen::Vector3d ray = shift.shown(Eigen::Vector3d(position_in_enu)) - camera_in_enu;
-  const double height_m = camera_in_enu.z() - frame.projector.config().ground_height_above_home_m;
-  const double k = height_m / -ray.z();
-  if (!(k > 0.0)) return look.observation;
-  GroundFix expected = look.fix;
-  expected.position_in_enu = (camera_in_enu + k * ray).head<2>();
-  expected.range_m = k * ray.norm();
-  expected.direction_in_enu = ray.normalized();
-  const FixJacobians jacobians = jacobians_of(expected, frame.view, height_m);
-  LandmarkObservation there =
-      observation(expected, jacobians, noise_of(look.detection, expected, jacobians, frame, errors),
+  const Rigid3d& enu_from_camera = frame.view.enu_from_camera;
+  const Eigen::Vector3d shown_in_enu = shift.shown(Eigen::Vector3d(position_in_enu));
+  const auto pixel = frame.projector.reproject(shown_in_enu, enu_from_camera);
+  if (!pixel) return look.observation;
+  const auto on_plane = frame.projector.project(*pixel, enu_from_camera);
+  if (!on_plane) return look.observation;
+  const double below_camera_m = enu_from_camera.translation.z() - shown_in_enu.z();
+  const double k = (enu_from_camera.translation.z() - frame.projector.config().ground_height_above_home_m) /
+                   below_camera_m;
+  GroundFix there = *on_plane;
+  there.position_in_enu = shown_in_enu.head<2>();
+  there.ground_from_pixel /= k;
+  there.range_m /= k;
+  const FixJacobians jacobians = jacobians_of(there, frame.view, below_camera_m);
+  LandmarkObservation expected =
+      observation(there, jacobians, noise_of(look.detection, there, jacobians, frame, errors),
                   looks_that_share, frame, errors);
-  there.value += (look.fix.position_in_enu - expected.position_in_enu) / k;
-  return there;
+  const Eigen::Vector2d beside = look.fix.position_in_enu - on_plane->position_in_enu;
+  expected.value += on_plane->position_in_enu - there.position_in_enu + beside / k;
+  return expected;
 }
 
 Look LookMaker::make_look(const LocatedDetection& located, double looks_that_share, const JointFrame& frame,

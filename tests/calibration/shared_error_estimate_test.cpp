@@ -250,5 +250,19 @@ TEST_F(SharedErrors, AreLessWellKnownAfterAStepUntilTheNextSolution) {
   EXPECT_LT((estimate_.drift_root * estimate_.drift_root.transpose() - before).norm(), 1e-9);
 }
 
+/// Frames far apart do not sway; in the opening the looks bear the noise.
+TEST_F(SharedErrors, SwayAsTheFramesNoise) {
+  const double attitude = estimate_.noise.attitude_variance_rad2(), position = 0.03;
+  SwayVector noise;
+  noise << position, position, attitude, attitude;
+  estimate_.believe_in_sway(position, true);
+  EXPECT_LT((estimate_.drift.sway().variance() - 0.1 * noise).norm(), 1e-12);
+  estimate_.is_opening = false;
+  estimate_.believe_in_sway(position, true);
+  EXPECT_LT((estimate_.drift.sway().variance() - noise).norm(), 1e-12);
+  estimate_.believe_in_sway(position, false);
+  EXPECT_EQ(estimate_.drift.sway().variance().norm(), 0.0);
+}
+
 }  // namespace
 }  // namespace geoloc

@@ -14,7 +14,7 @@ namespace {
 
 using testing::WatchedFlight;
 
-const std::vector<Eigen::Vector2d> kObjects{{-6, 2}, {4, 5},  {-3, 9},  {7, 14}, {0, 18},
+const std::vector<Eigen::Vector2d> kObjects{{-6, 2},  {4, 5},  {-3, 9},  {7, 14}, {0, 18},
                                             {-7, 22}, {5, 27}, {-2, 31}, {6, 36}, {1, 40}};
 
 class WatchedClock : public ::testing::Test {

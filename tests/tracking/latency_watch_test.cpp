@@ -14,7 +14,7 @@ namespace {
 
 using testing::WatchedFlight;
 
-const std::vector<Eigen::Vector2d> kGround{{-6, 2}, {4, 5},  {-3, 9},  {7, 14}, {0, 18},
+const std::vector<Eigen::Vector2d> kGround{{-6, 2},  {4, 5},  {-3, 9},  {7, 14}, {0, 18},
                                            {-7, 22}, {5, 27}, {-2, 31}, {6, 36}, {1, 40}};
 
 /// What is found in the first seconds, at ten frames a second, of a flight whose frames are stamped late.

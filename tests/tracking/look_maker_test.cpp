@@ -57,8 +57,13 @@ class LooksFromAbove : public ::testing::Test {
 
   FrameLooks make(const std::vector<LocatedDetection>& detections) {
     LookMaker maker(config_, 20);
-    const JointFrame frame{projector_, view_, span_, drift_, repetition_, 0.0, kClutterPerFrame};
-    return maker.make(detections, frame, errors_);
+    return maker.make(detections, frame(), errors_);
+  }
+
+  JointFrame frame() const {
+    return {projector_,       view_,       span_,
+            drift_,           repetition_, projector_.config().ground_height_above_home_m + view_.lifted_m,
+            kClutterPerFrame, run_time_};
   }
 
   /// Variances per axis of the noise [m^2].
@@ -77,6 +82,7 @@ class LooksFromAbove : public ::testing::Test {
   NodeSpan span_{};
   NodeVector drift_ = NodeVector::Zero();
   NoiseRepetition repetition_{5.0, 3.0};
+  RunTimeError run_time_;
 };
 
 TEST_F(LooksFromAbove, KnowTheirNoise) {
@@ -184,7 +190,56 @@ TEST_F(LooksFromAbove, ShareTheAttitudeWithAllThatStandsStill) {
   ASSERT_EQ(looks.moving.size(), 1U);
   const Eigen::Matrix2d noise = looks.at_rest[0].observation.information.inverse();
   const double across = 0.05 * 0.05 * (3.0 * 3.0);
-  EXPECT_NEAR(noise(0, 0), pixel() + 3.0 * 3.0 * attitude() + 5.0 * position() + across, 1e-9);
+  EXPECT_NEAR(noise(0, 0), pixel() + 3.0 * 3.0 * attitude() + 5.0 * position() + 3.0 * across, 1e-9);
+}
+
+/// A late frame shows all of its objects late: many of them are no better witnesses of the vehicle's speed.
+TEST_F(LooksFromAbove, ShareTheStampWithAllThatStandsStill) {
+  const Eigen::Vector2d velocity(3.0, 4.0);
+  const Eigen::Matrix2d per_s2 = velocity * velocity.transpose();
+  for (const int others : {0, 1, 6}) {
+    std::vector<LocatedDetection> detections{located(0.0, 0.0), located(-5.0, 0.0, kCarClass)};
+    for (int i = 0; i < others; ++i) detections.push_back(located(4.0, 1.0 * i));
+    const auto noise = [&](const RunTimeError& run_time) {
+      run_time_ = run_time;
+      return Eigen::Matrix2d(make(detections).at_rest[0].observation.information.inverse());
+    };
+    const double share = 1.0 + others;
+    const Eigen::Matrix2d of_the_rest =
+        (pixel() + 3.0 * share * attitude() + 5.0 * position()) * Eigen::Matrix2d::Identity();
+    const Eigen::Matrix2d of_its_own = share * 0.05 * 0.05 * per_s2;
+    EXPECT_LT((noise({}) - of_the_rest - of_its_own).norm(), 1e-8) << others;
+    // What the stamps of a run of frames have in common is shared by the looks of all of them.
+    const Eigen::Matrix2d of_the_run = 30.0 * share * 0.2 * 0.2 * per_s2;
+    EXPECT_LT((noise({0.2, 30.0}) - of_the_rest - of_its_own - of_the_run).norm(), 1e-6) << others;
+  }
+}
+
+/// Once the flight has begun the spells of the sway follow what lasts: what is left in the looks is what it
+/// does within a spell. What no spell follows stays.
+TEST_F(LooksFromAbove, LeaveToTheSwayMostOfWhatLasts) {
+  repetition_.of_interpolation = 7.0;
+  view_.vehicle.sigma_turn_rad = 0.02;
+  view_.vehicle.sigma_position_m = 0.3;
+  const std::vector<LocatedDetection> detections{located(0.0, 0.0), located(0.0, 5.0)};
+  const Look at_first = make(detections).at_rest[0];
+  errors_.is_opening = false;
+  const Look later = make(detections).at_rest[0];
+  const Eigen::Matrix2d lasting = (2.0 * 3.0 * attitude() + 5.0 * position()) * Eigen::Matrix2d::Identity();
+  EXPECT_LT(
+      (at_first.observation.information.inverse() - later.observation.information.inverse() - 0.75 * lasting)
+          .norm(),
+      1e-8);
+  // What does not last from one frame to the next is no sway.
+  repetition_.of_attitude = 1.0;
+  const Eigen::Matrix2d still = (2.0 * attitude() + 5.0 * position()) * Eigen::Matrix2d::Identity() - lasting;
+  const Look of_still = make(detections).at_rest[0];
+  EXPECT_LT((of_still.observation.information.inverse() - at_first.observation.information.inverse() - still)
+                .norm(),
+            1e-8);
+  // Association compares frames: what they are off by is the same as ever.
+  EXPECT_EQ(later.frame_noise, at_first.frame_noise);
+  EXPECT_EQ(later.pixel_noise, at_first.pixel_noise);
 }
 
 /// Each look has its own Jacobians; what the frame's noise does to it is the mean over the looks at rest.
@@ -297,6 +352,220 @@ TEST_F(LooksFromAbove, AreNoDuplicatesOfWhatMayMove) {
   const FrameLooks looks = make({located(0, 0), located(0.1, 0, kCarClass), located(0.2, 0, kCarClass)});
   EXPECT_EQ(looks.at_rest.size(), 1U);
   EXPECT_EQ(looks.moving.size(), 1U);
+}
+
+// --- Looks at objects whose place is known.
+
+/// From a camera that looks aside, of a vehicle that climbs and turns over a plane above home. Everything
+/// that is estimated is something already, as it is later in a flight.
+class LooksAtKnownObjects : public LooksFromAbove {
+ protected:
+  /// All that an observation speaks of.
+  struct Truth {
+    Point place;
+    CalibrationVector calibration;
+    NodeVector drift;
+
+    static constexpr int kSize = kPointSize + CalibrationIndex::kSize + kNodeSize;
+    double& component(int i) {
+      if (i < kPointSize) return place[i];
+      i -= kPointSize;
+      return i < CalibrationIndex::kSize ? calibration[i] : drift[i - CalibrationIndex::kSize];
+    }
+  };
+
+  LooksAtKnownObjects() {
+    ProjectorConfig raised;
+    raised.ground_height_above_home_m = kPlane_m;
+    projector_ = Projector(raised, intrinsics());
+    view_.lifted_m = 0.3;
+    view_.latency_s = 0.1;
+    view_.enu_from_camera.rotation =
+        Eigen::AngleAxisd(0.5, Eigen::Vector3d(0.9, -0.3, 0.2).normalized()) * view_.enu_from_camera.rotation;
+    view_.enu_from_camera.translation = {2.0, -1.0, kPlane_m + kUp_m};
+    view_.vehicle.velocity_in_enu = {3.0, 4.0, 1.2};
+    view_.vehicle.enu_from_body.rotation =
+        Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.1, 0.2, 1.0).normalized());
+    view_.vehicle.angular_velocity_in_body = {0.1, -0.2, 0.4};
+    errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.8, 0.7, -0.4;
+    drift_.head<2>() << 0.2, 0.3;
+  }
+
+  /// As the estimate has it, about the middle of the image.
+  Truth as_estimated(double up_m) const { return {{0.0, 8.0, up_m}, errors_.calibration.mean, drift_}; }
+
+  /// An object at the plane that the frame is located on.
+  double plane_above_level_m() const { return errors_.calibration.height_m() - view_.lifted_m; }
+
+  /// Where the image shows the object: the camera where and how it truly was, heights from the level ground.
+  Eigen::Vector2d pixel_of(const Truth& truth) const {
+    const VehicleState& vehicle = view_.vehicle;
+    const double late_s = truth.calibration[CalibrationIndex::kLatency] - view_.latency_s;
+    const Eigen::Vector3d turned_in_enu =
+        -late_s * (vehicle.enu_from_body.rotation * vehicle.angular_velocity_in_body) -
+        truth.drift[3] * Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d turned_in_camera = truth.calibration.head<3>() - errors_.calibration.mean.head<3>();
+    Rigid3d camera = view_.enu_from_camera;
+    camera.rotation = turn(turned_in_enu) * camera.rotation * turn(turned_in_camera);
+    camera.translation -= late_s * vehicle.velocity_in_enu;
+    camera.translation.head<2>() +=
+        truth.calibration.segment<2>(CalibrationIndex::kOffset) + truth.drift.head<2>();
+    camera.translation.z() +=
+        truth.calibration[CalibrationIndex::kHeight] - view_.lifted_m - kPlane_m + truth.drift[kNodeUp];
+    return *projector_.reproject(Eigen::Vector3d(truth.place), camera);
+  }
+
+  static Eigen::Quaterniond turn(const Eigen::Vector3d& by) {
+    if (by.norm() == 0.0) return Eigen::Quaterniond::Identity();
+    return Eigen::Quaterniond(Eigen::AngleAxisd(by.norm(), by.normalized()));
+  }
+
+  Look look_of(const Eigen::Vector2d& pixel) const {
+    constexpr double kSize_px = 40.0;
+    LocatedDetection located;
+    located.detection.box = {pixel.x() + 0.5 - 0.5 * kSize_px, pixel.y() + 0.5 - 0.5 * kSize_px, kSize_px,
+                             kSize_px};
+    located.fix = *projector_.project(pixel, view_.enu_from_camera);
+    return maker_.make_look(located, kShare, frame(), errors_);
+  }
+
+  LandmarkObservation known_at(const Point& place, const Eigen::Vector2d& pixel) const {
+    return maker_.linearised_at(place, look_of(pixel), kShare, frame(), errors_);
+  }
+
+  /// By how much the truth is at odds with an observation.
+  static Eigen::Vector2d residual(const LandmarkObservation& observation, const Truth& truth) {
+    return observation.point_jacobian() * truth.place - observation.value -
+           observation.calibration_jacobian * truth.calibration - observation.node_jacobian * truth.drift;
+  }
+
+  static void expect_same(const LandmarkObservation& a, const LandmarkObservation& b, double within) {
+    EXPECT_LE((a.value - b.value).norm(), within);
+    EXPECT_LE((a.slope - b.slope).norm(), within);
+    EXPECT_LE((a.calibration_jacobian - b.calibration_jacobian).norm(), within);
+    EXPECT_LE((a.node_jacobian - b.node_jacobian).norm(), within);
+    EXPECT_LE((a.information - b.information).norm(), within * b.information.norm());
+    EXPECT_EQ(a.span.first, b.span.first);
+    EXPECT_EQ(a.span.weight_of_second, b.span.weight_of_second);
+    EXPECT_EQ(a.span.spell, b.span.spell);
+  }
+
+  static constexpr double kPlane_m = 10.0;
+  static constexpr double kShare = 2.0;  // looks that share the frame's noise
+  LookMaker maker_{config_, 20};
+};
+
+TEST_F(LooksAtKnownObjects, AreAsTheyAreWhereTheyShowAnObjectOfThePlaneAtItsPlace) {
+  const Truth truth = as_estimated(plane_above_level_m());
+  const Eigen::Vector2d pixel = pixel_of(truth);
+  expect_same(known_at(truth.place, pixel), look_of(pixel).observation, 1e-9);
+}
+
+/// The ray is one and the same, wherever the object stands along it.
+TEST_F(LooksAtKnownObjects, SayTheSameOfAnObjectThatTheyShowAtItsPlace) {
+  for (const double up_m : {-6.0, 0.0, 3.0, 8.0}) {
+    const Truth truth = as_estimated(up_m);
+    const Eigen::Vector2d pixel = pixel_of(truth);
+    const LandmarkObservation known = known_at(truth.place, pixel), own = look_of(pixel).observation;
+    EXPECT_LT((known.slope - own.slope).norm(), 1e-9) << up_m;
+    EXPECT_LT(residual(known, truth).norm(), 1e-9) << up_m;
+    EXPECT_LT(residual(own, truth).norm(), 1e-9) << up_m;
+  }
+}
+
+/// Whatever is other than estimated, by a little, shows the object elsewhere; what the observation makes of
+/// that, linearised at the estimate, agrees with it. The oracle is the projection itself.
+TEST_F(LooksAtKnownObjects, AgreeToFirstOrderWithWhateverMovesTheirObjectInTheImage) {
+  constexpr double kStep = 1e-4;
+  for (const double up_m : {plane_above_level_m(), -6.0, 3.0, 8.0}) {
+    const Truth estimated = as_estimated(up_m);
+    for (int i = 0; i < Truth::kSize; ++i) {
+      const auto miss = [&](double step) {
+        Truth truth = estimated;
+        truth.component(i) += step;
+        return residual(known_at(estimated.place, pixel_of(truth)), truth);
+      };
+      EXPECT_LT((miss(kStep) - miss(-kStep)).norm() / (2.0 * kStep), 1e-5)
+          << "component " << i << ", object at " << up_m << " m";
+    }
+  }
+}
+
+/// A pixel, a turn of the camera and a metre of the vehicle's position move an object that is nearer to the
+/// camera than the plane by what they do there.
+TEST_F(LooksAtKnownObjects, HaveTheNoiseThatMovesThemWhereTheirObjectStands) {
+  constexpr double kStep_px = 1e-3;
+  for (const double up_m : {plane_above_level_m(), -6.0, 8.0}) {
+    const Truth truth = as_estimated(up_m);
+    const Eigen::Vector2d pixel = pixel_of(truth);
+    const LandmarkObservation known = known_at(truth.place, pixel);
+    Eigen::Matrix2d per_pixel;
+    for (int i = 0; i < 2; ++i) {
+      const Eigen::Vector2d step = kStep_px * Eigen::Vector2d::Unit(i);
+      per_pixel.col(i) = (known_at(truth.place, pixel + step).value - known.value) / kStep_px;
+    }
+    const auto turn = known.calibration_jacobian.leftCols<3>();
+    const auto late = known.calibration_jacobian.col(CalibrationIndex::kLatency);
+    const double turn_rad = kSigmaAttitude_deg * kPi / 180.0;
+    const Eigen::Matrix2d noise = 2.0 * 2.0 * per_pixel * per_pixel.transpose() +
+                                  kShare * 3.0 * turn_rad * turn_rad * turn * turn.transpose() +
+                                  5.0 * position() * Eigen::Matrix2d::Identity() +
+                                  kShare * 0.05 * 0.05 * late * late.transpose();
+    EXPECT_LT((known.information.inverse() - noise).norm(), 1e-4 * noise.norm()) << up_m;
+  }
+}
+
+/// Neither the Jacobians nor the weight: what errs to one side would count for more than what errs to the
+/// other.
+TEST_F(LooksAtKnownObjects, HaveNoneOfTheDetectionsNoiseInTheirJacobians) {
+  for (const double up_m : {0.0, 4.0}) {
+    const Truth truth = as_estimated(up_m);
+    const Eigen::Vector2d pixel = pixel_of(truth);
+    const Eigen::Vector2d noise_px(1.8, -2.4);
+    const LandmarkObservation one = known_at(truth.place, pixel),
+                              other = known_at(truth.place, pixel + noise_px);
+    EXPECT_EQ(one.slope, other.slope);
+    EXPECT_EQ(one.calibration_jacobian, other.calibration_jacobian);
+    EXPECT_EQ(one.node_jacobian, other.node_jacobian);
+    EXPECT_EQ(one.information, other.information);
+    EXPECT_GT((one.value - other.value).norm(), 0.02);
+    EXPECT_GT((look_of(pixel).observation.slope - look_of(pixel + noise_px).observation.slope).norm(), 1e-3);
+  }
+}
+
+/// By similar triangles, from where the camera is taken to have been.
+TEST_F(LooksAtKnownObjects, AreSeenFromWhereTheCameraIsTakenToHaveBeen) {
+  const auto slope_from_here = [&](const Point& place) {
+    const Eigen::Vector2d camera =
+        view_.enu_from_camera.translation.head<2>() + errors_.calibration.offset_m() + drift_.head<2>();
+    const double height_m = kUp_m + errors_.calibration.height_m() - view_.lifted_m - place.z();
+    return Eigen::Vector2d((camera - place.head<2>()) / height_m);
+  };
+  const Truth at_first = as_estimated(3.0);
+  const Eigen::Vector2d pixel = pixel_of(at_first);
+  const auto expect_seen_from_here = [&] {
+    EXPECT_LT((known_at(at_first.place, pixel).slope - slope_from_here(at_first.place)).norm(), 1e-12);
+  };
+  expect_seen_from_here();
+  errors_.calibration.mean.segment<2>(CalibrationIndex::kOffset) << -0.9, 1.6;
+  expect_seen_from_here();
+  drift_.head<2>() << 1.1, -0.8;
+  expect_seen_from_here();
+  errors_.calibration.mean[CalibrationIndex::kHeight] = -1.5;
+  expect_seen_from_here();
+  view_.lifted_m = -0.7;
+  expect_seen_from_here();
+}
+
+TEST_F(LooksAtKnownObjects, StayAsTheyAreWhereTheirObjectCannotBeInView) {
+  const Look look = look_of(pixel_of(as_estimated(0.0)));
+  const Eigen::Vector3d camera = view_.enu_from_camera.translation;
+  const Eigen::Vector3d ahead = view_.enu_from_camera.rotation * Eigen::Vector3d::UnitZ();
+  const double level_m = kUp_m + plane_above_level_m();
+  const Point behind(camera.x() - 120.0 * ahead.x(), camera.y() - 120.0 * ahead.y(), 0.0);
+  for (const Point& place : {Point(0.0, 8.0, level_m + 1.0), Point(0.0, 8.0, 2.0 * level_m),
+                             Point(0.0, 8.0, level_m - 1e-9), behind})
+    expect_same(maker_.linearised_at(place, look, kShare, frame(), errors_), look.observation, 0.0);
 }
 
 }  // namespace

@@ -8,12 +8,12 @@ namespace {
 
 constexpr double kOwnSigma_s = 0.01;
 
-HostTime host_at(double time_s) {
+HostTime arrived_at(double time_s) {
   return HostTime{from_seconds(1000.0 + time_s)};
 }
 
 RunTimeError unstated(StreamStart& start, double time_s) {
-  return start.observe(host_at(time_s), 0.0, kOwnSigma_s);
+  return start.observe(arrived_at(time_s), 0.0, kOwnSigma_s);
 }
 
 TEST(StreamStart, TheFirstSecondsShareAWideErrorAndLaterFramesNone) {
@@ -41,9 +41,9 @@ TEST(StreamStart, FramesThatAlwaysComeSecondsApartAreNoStream) {
 
 TEST(StreamStart, WhatIsStatedHoldsLessTheFramesOwnNoise) {
   StreamStart start;
-  EXPECT_NEAR(start.observe(host_at(0.0), 0.3, kOwnSigma_s).sigma_s, 0.3, 1e-3);
-  EXPECT_EQ(start.observe(host_at(0.1), kOwnSigma_s, kOwnSigma_s).sigma_s, 0.0);
-  EXPECT_NEAR(start.observe(host_at(99.0), 0.05, 0.04).sigma_s, 0.03, 1e-9);
+  EXPECT_NEAR(start.observe(arrived_at(0.0), 0.3, kOwnSigma_s).sigma_s, 0.3, 1e-3);
+  EXPECT_EQ(start.observe(arrived_at(0.1), kOwnSigma_s, kOwnSigma_s).sigma_s, 0.0);
+  EXPECT_NEAR(start.observe(arrived_at(99.0), 0.05, 0.04).sigma_s, 0.03, 1e-9);
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ struct WatchedFlight {
   CameraMount mount;
   FrameViewer frame_viewer{state, mount, CameraOrientation::kComposed};
   Projector projector{ProjectorConfig{}, CameraIntrinsics{}};
-  ArrowheadSolver solver{CalibrationPrior{}, 10};
+  ArrowheadSolver solver{CalibrationPrior{}, DriftConfig{}};
   SharedErrorEstimate errors{
       PositionAccuracy{0.5, 0.2, 0.1}, HeightPrior{0.0, 1.0}, NoiseEstimate(0.005), DriftConfig{}, solver};
 };
