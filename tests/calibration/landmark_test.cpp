@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -368,7 +369,8 @@ TEST_F(LandmarkSums, AreNotConcernedByANodeThatNoLookTouched) {
 
 TEST_F(LandmarkSums, FreezeTheOldestNodesWhereThereAreTooMany) {
   Told told;
-  look_many(told, 0.0, 97.0, 120);  // 21 nodes, five apart
+  constexpr int kNodes = static_cast<int>(Landmark::kMaxNodes) + 5;  // five seconds apart
+  look_many(told, 0.0, 5.0 * (kNodes - 2) + 2.0, 6 * kNodes);
   Nodes frozen = means();
   ASSERT_EQ(told.landmark.end() - told.landmark.begin(), static_cast<std::ptrdiff_t>(Landmark::kMaxNodes));
   frozen.erase(frozen.find(told.landmark.begin()->number), frozen.end());
@@ -628,12 +630,17 @@ TEST_F(ThinnedLandmarkSums, FreezeANodeWhoseNeighboursThereIsNoRoomFor) {
   Told told, other;
   look_many(told, 0.0, 4.9, 5);
   look_many(other, 5.0, 14.9, 10);
-  look_many(told, 15.1, 84.9, 80);
-  ASSERT_EQ(nodes_of(told), (Numbers{1, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}));
+  constexpr std::uint32_t kLast = Landmark::kMaxNodes + 1;
+  look_many(told, 15.1, 5.0 * kLast - 0.1, 6 * static_cast<int>(kLast));
+  Numbers from_third(kLast - 2);
+  std::iota(from_third.begin(), from_third.end(), 3U);
+  Numbers seen = from_third;
+  seen.insert(seen.begin(), 1U);
+  ASSERT_EQ(nodes_of(told), seen);
   const auto mean = [this](std::uint32_t number) { return drift_.node(number).mean; };
   const ThinnedNode node{1, 0.4, mean(1) - 0.6 * mean(0) - 0.4 * mean(2)};
   told.landmark.thin(node, drift_);
-  EXPECT_EQ(nodes_of(told), (Numbers{3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16, 17}));
+  EXPECT_EQ(nodes_of(told), from_third);
   expect_same_costs(told, {{1, mean(0)}, {2, mean(2)}}, {node});
 }
 
