@@ -45,6 +45,7 @@ class LandmarkSums : public ::testing::Test {
   static DriftConfig config() {
     DriftConfig config;
     config.node_spacing_s = 5.0;
+    config.max_nodes = 60;  // none is overwritten
     return config;
   }
 
