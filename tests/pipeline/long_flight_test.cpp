@@ -95,8 +95,7 @@ class Wandering {
 class LongFlight {
  public:
   LongFlight(double length_s, double period_s, unsigned seed)
-      : length_s_(length_s),
-        period_s_(period_s),
+      : period_s_(period_s),
         wandering_(length_s, seed),
         random_(seed),
         flight_(
@@ -147,7 +146,7 @@ class LongFlight {
   NadirFlight& flight() { return flight_; }
 
  private:
-  double length_s_, period_s_;
+  double period_s_;
   Wandering wandering_;
   std::mt19937 random_;
   std::normal_distribution<double> noise_px_{0.0, kNoise_px};
