@@ -173,7 +173,7 @@ double most_by_chance(int count) {
 /// More than the nodes that are kept in full: what an object's looks say of older ones still holds.
 TEST(LongFlights, KnowWhatTheySawAtFirstAsWellAsTheyState) {
   constexpr double kLength_s = 400.0;
-  constexpr int kFlights = 8;
+  constexpr int kFlights = 3;
   double at_first = 0.0, at_last = 0.0;
   for (unsigned seed = 1; seed <= kFlights; ++seed) {
     LongFlight flight(kLength_s, 0.5, seed);
@@ -187,7 +187,7 @@ TEST(LongFlights, KnowWhatTheySawAtFirstAsWellAsTheyState) {
 }
 
 TEST(LongFlights, FindWhatTheySawAtFirstAgainAfterAnHour) {
-  constexpr int kFlights = 4;
+  constexpr int kFlights = 1;
   double at_last = 0.0;
   for (unsigned seed = 1; seed <= kFlights; ++seed) {
     LongFlight flight(kHour_s, 1.0, seed);
