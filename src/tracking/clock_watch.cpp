@@ -174,7 +174,7 @@ std::optional<LatencyPrior> ClockWatch::decide(const PlaceFit& fit, double belie
   has_wandered_ = false;
   if (!scores_.are_complete(kLeastFrames)) return std::nullopt;
   const auto best = scores_.best(kLeastFrames);
-  if (!best || gain(fit, believed_s) < kLeastGain) return std::nullopt;
+  if (!best || LatencyScores::is_at_edge(*best) || gain(fit, believed_s) < kLeastGain) return std::nullopt;
   const Score& found = scores_[*best];
   const auto peak = scores_.only_peak(*best, kLeastLead / weight(found.frames));
   if (!peak || span_s(found.frames) < kLeastSpan_s) return std::nullopt;

@@ -14,6 +14,10 @@ class LatencyScores {
   static constexpr double kStep_s = 0.05;
   static constexpr int kReach = 70;
   static constexpr int kSize = 2 * kReach + 1;
+  static constexpr int kEdge = 3;
+  /// Whether the best latency may lie beyond those that are tried.
+  static constexpr bool is_at_edge(int n) { return n < kEdge || n >= kSize - kEdge; }
+
   static double latency_s(int number) { return (number - kReach) * kStep_s; }
 
   struct Score {
