@@ -17,8 +17,7 @@ constexpr double kLeastSigma = 1e-9;
 
 /// Where the head's part begins that concerns the object: at the oldest node that it was seen at.
 Eigen::Index first_column(const Landmark& landmark, const HeadLayout& layout) {
-  if (landmark.spells_begin() != landmark.spells_end())
-    return layout.column_of_spell(landmark.spells_begin()->number);
+  if (!landmark.spells().is_empty()) return layout.column_of_spell(landmark.spells().begin()->number);
   return landmark.begin() == landmark.end() ? layout.column_of_calibration()
                                             : layout.column_of(landmark.begin()->number);
 }
@@ -146,23 +145,22 @@ void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& l
 void ArrowheadSolver::add_spells(const Landmark& landmark, const PointMatrix& A_inverse, const Point& mean,
                                  const HeadLayout& layout) {
   const Eigen::Index last = layout.column_of_calibration();
-  for (auto own = landmark.spells_begin(); own != landmark.spells_end(); ++own) {
-    const Eigen::Index here = layout.column_of_spell(own->number);
-    const Eigen::Matrix<double, kPointSize, kSwaySize> gain = A_inverse * own->B;
-    right_hand_side_.segment<kSwaySize>(here) += own->g + own->B.transpose() * mean;
+  for (const Landmark::SpellTerms& own : landmark.spells()) {
+    const Eigen::Index here = layout.column_of_spell(own.number);
+    const Eigen::Matrix<double, kPointSize, kSwaySize> gain = A_inverse * own.B;
+    right_hand_side_.segment<kSwaySize>(here) += own.g + own.B.transpose() * mean;
     information_.block<kCalibration, kSwaySize>(last, here) +=
-        own->C_calibration - landmark.B().transpose() * gain;
-    information_.block<kSwaySize, kSwaySize>(here, here) += own->C_own - own->B.transpose() * gain;
-    for (auto later = own + 1; later != landmark.spells_end(); ++later)
+        own.C_calibration - landmark.B().transpose() * gain;
+    information_.block<kSwaySize, kSwaySize>(here, here) += own.C_own - own.B.transpose() * gain;
+    for (const Landmark::SpellTerms* later = &own + 1; later != landmark.spells().end(); ++later)
       information_.block<kSwaySize, kSwaySize>(layout.column_of_spell(later->number), here) -=
           later->B.transpose() * gain;
     for (const Landmark::NodeTerms& node : landmark)
       information_.block<kNodeSize, kSwaySize>(layout.column_of(node.number), here) -=
           node.B.transpose() * gain;
     for (std::uint32_t side = 0; side < 2; ++side) {
-      if (layout.has_node(own->node + side))
-        information_.block<kNodeSize, kSwaySize>(layout.column_of(own->node + side), here) +=
-            own->C_node[side];
+      if (layout.has_node(own.node + side))
+        information_.block<kNodeSize, kSwaySize>(layout.column_of(own.node + side), here) += own.C_node[side];
     }
   }
 }
@@ -237,9 +235,9 @@ void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout
   for (const Landmark::NodeTerms& terms : landmark) {
     sensitivities_.middleRows<kNodeSize>(layout.column_of(terms.number)) += terms.B.transpose() * A_inverse;
   }
-  for (auto terms = landmark.spells_begin(); terms != landmark.spells_end(); ++terms)
-    sensitivities_.middleRows<kSwaySize>(layout.column_of_spell(terms->number)) +=
-        terms->B.transpose() * A_inverse;
+  for (const Landmark::SpellTerms& terms : landmark.spells())
+    sensitivities_.middleRows<kSwaySize>(layout.column_of_spell(terms.number)) +=
+        terms.B.transpose() * A_inverse;
 }
 
 /// G S^-1 G' of the sensitivities gathered, which are zero before `first`.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -105,8 +106,8 @@ class DriftTimeline {
   /// Leaves out the node; those before it are called by a number higher by one from now on.
   void thin(const ThinnedNode& node);
 
-  /// Nodes from here on have the number that they had when they were made.
-  std::uint32_t begin_of_fine() const { return begin_of_fine_; }
+  /// Nodes from here on are estimated, and have the number that they had when they were made.
+  std::uint32_t begin_of_fine() const { return std::max(begin_, begin_of_fine_); }
 
   /// Forgets the oldest node: its estimate becomes the fixed start of what follows.
   void freeze_oldest();

@@ -7,21 +7,18 @@
 namespace geoloc {
 
 Landmark::NodeTerms& Landmark::terms_of(std::uint32_t node, const DriftTimeline& drift) {
-  const auto by_number = [](const NodeTerms& terms, std::uint32_t number) { return terms.number < number; };
-  auto place = std::lower_bound(nodes_.begin(), nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_),
-                                node, by_number);
-  if (place != nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_) && place->number == node)
-    return *place;
-  if (node_count_ == kMaxNodes) {
-    drop_oldest(drift.node(nodes_[0].number).mean);
-    return terms_of(node, drift);
-  }
-  std::move_backward(place, nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_),
-                     nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_ + 1));
-  ++node_count_;
-  *place = NodeTerms{};
-  place->number = node;
-  return *place;
+  if (NodeTerms* const found = nodes_.find(node)) return *found;
+  if (nodes_.is_full()) drop_oldest(drift.node(nodes_.begin()->number).mean);
+  return nodes_.insert(node);
+}
+
+Landmark::SpellTerms& Landmark::terms_of_spell(std::uint32_t spell, std::uint32_t node,
+                                               const DriftTimeline& drift) {
+  if (SpellTerms* const found = spells_.find(spell)) return *found;
+  if (spells_.is_full()) drop_oldest_spell(drift.sway().spell(spells_.begin()->number).mean);
+  SpellTerms& terms = spells_.insert(spell);
+  terms.node = node;
+  return terms;
 }
 
 void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& drift) {
@@ -91,8 +88,8 @@ void Landmark::merge(const Landmark& other, const DriftTimeline& drift) {
     ours.C_next += theirs.C_next;
     ours.g += theirs.g;
   }
-  std::for_each(other.spells_begin(), other.spells_end(), [&](const SpellTerms& theirs) {
-    if (drift.sway().is_frozen(theirs.number)) return;
+  for (const SpellTerms& theirs : other.spells_) {
+    if (drift.sway().is_frozen(theirs.number)) continue;
     SpellTerms& ours = terms_of_spell(theirs.number, theirs.node, drift);
     ours.B += theirs.B;
     ours.C_calibration += theirs.C_calibration;
@@ -100,26 +97,25 @@ void Landmark::merge(const Landmark& other, const DriftTimeline& drift) {
     ours.C_node[1] += theirs.C_node[1];
     ours.C_own += theirs.C_own;
     ours.g += theirs.g;
-  });
+  }
 }
 
 /// With J for a look's Jacobian by the node that goes, those by its neighbours grow by (1 - w) J and w J, and
 /// the look's value by J times the deviation.
 void Landmark::thin(const ThinnedNode& node, const DriftTimeline& drift) {
   // Where all places are taken there is none for two neighbours in place of one node.
-  if (node_count_ == kMaxNodes && find(node.number - 1) == nullptr && find(node.number + 1) == nullptr)
+  if (nodes_.is_full() && nodes_.find(node.number - 1) == nullptr && nodes_.find(node.number + 1) == nullptr)
     freeze(node.number, drift);
-  if (const NodeTerms* const found = find(node.number)) {
+  if (NodeTerms* const found = nodes_.find(node.number)) {
     const NodeTerms gone = *found;
-    const NodeTerms* const before = find(node.number - 1);
+    const NodeTerms* const before = nodes_.find(node.number - 1);
     const NodeMatrix C_before = before == nullptr ? NodeMatrix::Zero() : before->C_next;
     const double second = node.weight_of_next, first = 1.0 - second;
     const NodeVector& e = node.deviation;
     const NodeVector g = gone.g - gone.C_own * e;
     b_ += gone.B * e;
     g_ -= gone.C_calibration * e;
-    std::move(found + 1, end(), nodes_.begin() + (found - begin()));
-    --node_count_;
+    nodes_.erase(found);
     const auto add_to = [&](std::uint32_t number, double weight, const NodeMatrix& C_shared) -> NodeTerms& {
       NodeTerms& terms = terms_of(number, drift);
       terms.B += weight * gone.B;
@@ -132,55 +128,28 @@ void Landmark::thin(const ThinnedNode& node, const DriftTimeline& drift) {
     add_to(node.number - 1, first, C_before).C_next =
         second * C_before + first * gone.C_next + first * second * gone.C_own;
   }
-  for (std::size_t i = 0; i < node_count_; ++i) {
-    if (nodes_[i].number < node.number) ++nodes_[i].number;
+  for (NodeTerms& terms : nodes_) {
+    if (terms.number < node.number) ++terms.number;
   }
-}
-
-Landmark::NodeTerms* Landmark::find(std::uint32_t node) {
-  const auto end = nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_);
-  const auto place =
-      std::find_if(nodes_.begin(), end, [node](const NodeTerms& terms) { return terms.number == node; });
-  return place == end ? nullptr : &*place;
-}
-
-Landmark::SpellTerms& Landmark::terms_of_spell(std::uint32_t spell, std::uint32_t node,
-                                               const DriftTimeline& drift) {
-  std::size_t place = spell_count_;
-  while (place > 0 && spells_[place - 1].number > spell) --place;
-  if (place > 0 && spells_[place - 1].number == spell) return spells_[place - 1];
-  if (spell_count_ == kMaxSpells) {
-    drop_oldest_spell(drift.sway().spell(spells_[0].number).mean);
-    return terms_of_spell(spell, node, drift);
-  }
-  const auto begin = spells_.begin() + static_cast<std::ptrdiff_t>(place);
-  std::move_backward(begin, spells_.begin() + static_cast<std::ptrdiff_t>(spell_count_),
-                     spells_.begin() + static_cast<std::ptrdiff_t>(spell_count_ + 1));
-  ++spell_count_;
-  *begin = SpellTerms{};
-  begin->number = spell;
-  begin->node = node;
-  return *begin;
 }
 
 void Landmark::freeze_spell(std::uint32_t spell, const DriftTimeline& drift) {
-  if (spell_count_ > 0 && spells_[0].number == spell) drop_oldest_spell(drift.sway().spell(spell).mean);
+  if (!spells_.is_empty() && spells_.begin()->number == spell)
+    drop_oldest_spell(drift.sway().spell(spell).mean);
 }
 
 void Landmark::drop_oldest_spell(const SwayVector& value) {
-  const SpellTerms& gone = spells_[0];
+  const SpellTerms& gone = *spells_.begin();
   b_ += gone.B * value;
   g_ -= gone.C_calibration * value;
   for (std::uint32_t i = 0; i < 2; ++i) {
-    if (NodeTerms* const node = find(gone.node + i)) node->g -= gone.C_node[i] * value;
+    if (NodeTerms* const node = nodes_.find(gone.node + i)) node->g -= gone.C_node[i] * value;
   }
-  std::move(spells_.begin() + 1, spells_.begin() + static_cast<std::ptrdiff_t>(spell_count_),
-            spells_.begin());
-  --spell_count_;
+  spells_.erase(spells_.begin());
 }
 
 void Landmark::freeze(std::uint32_t node, const DriftTimeline& drift) {
-  if (node_count_ > 0 && nodes_[0].number == node) drop_oldest(drift.node(node).mean);
+  if (!nodes_.is_empty() && nodes_.begin()->number == node) drop_oldest(drift.node(node).mean);
 }
 
 void Landmark::freeze_latency(double latency_s) {
@@ -191,39 +160,35 @@ void Landmark::freeze_latency(double latency_s) {
   C_.col(kLatency).setZero();
   C_.row(kLatency).setZero();
   g_[kLatency] = 0.0;
-  for (std::size_t i = 0; i < node_count_; ++i) {
-    NodeTerms& terms = nodes_[i];
-    terms.g -= terms.C_calibration.row(kLatency).transpose() * latency_s;
-    terms.C_calibration.row(kLatency).setZero();
-  }
-  for (std::size_t i = 0; i < spell_count_; ++i) {
-    SpellTerms& terms = spells_[i];
-    terms.g -= terms.C_calibration.row(kLatency).transpose() * latency_s;
-    terms.C_calibration.row(kLatency).setZero();
-  }
+  const auto freeze_in = [latency_s](auto& all) {
+    for (auto& terms : all) {
+      terms.g -= terms.C_calibration.row(kLatency).transpose() * latency_s;
+      terms.C_calibration.row(kLatency).setZero();
+    }
+  };
+  freeze_in(nodes_);
+  freeze_in(spells_);
 }
 
 void Landmark::drop_oldest(const NodeVector& value) {
-  const NodeTerms& gone = nodes_[0];
+  const NodeTerms& gone = *nodes_.begin();
   b_ += gone.B * value;
   g_ -= gone.C_calibration * value;
-  if (node_count_ > 1 && nodes_[1].number == gone.number + 1) nodes_[1].g -= gone.C_next.transpose() * value;
-  for (std::size_t i = 0; i < spell_count_; ++i) {
+  if (NodeTerms* const next = nodes_.find(gone.number + 1)) next->g -= gone.C_next.transpose() * value;
+  for (SpellTerms& terms : spells_) {
     for (std::uint32_t side = 0; side < 2; ++side) {
-      if (spells_[i].node + side != gone.number) continue;
-      spells_[i].g -= spells_[i].C_node[side].transpose() * value;
-      spells_[i].C_node[side].setZero();
+      if (terms.node + side != gone.number) continue;
+      terms.g -= terms.C_node[side].transpose() * value;
+      terms.C_node[side].setZero();
     }
   }
-  std::move(nodes_.begin() + 1, nodes_.begin() + static_cast<std::ptrdiff_t>(node_count_), nodes_.begin());
-  --node_count_;
+  nodes_.erase(nodes_.begin());
 }
 
 Point Landmark::position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
   Point sum = b_ + B_ * calibration;
   for (const NodeTerms& terms : *this) sum += terms.B * drift.node(terms.number).mean;
-  for (std::size_t i = 0; i < spell_count_; ++i)
-    sum += spells_[i].B * drift.sway().spell(spells_[i].number).mean;
+  for (const SpellTerms& terms : spells_) sum += terms.B * drift.sway().spell(terms.number).mean;
   return A_.inverse() * sum;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "calibration/drift.hpp"
+#include "calibration/numbered_terms.hpp"
 #include "geoloc/calibration/calibration.hpp"
 
 namespace geoloc {
@@ -125,16 +126,14 @@ class Landmark {
   const CalibrationRows& B() const { return B_; }
   const CalibrationMatrix& C() const { return C_; }
   const CalibrationVector& g() const { return g_; }
-  const NodeTerms* begin() const { return nodes_.data(); }
-  const NodeTerms* end() const { return nodes_.data() + node_count_; }
-  const SpellTerms* spells_begin() const { return spells_.data(); }
-  const SpellTerms* spells_end() const { return spells_.data() + spell_count_; }
+  const NodeTerms* begin() const { return nodes_.begin(); }
+  const NodeTerms* end() const { return nodes_.end(); }
+  const NumberedTerms<SpellTerms, kMaxSpells>& spells() const { return spells_; }
 
  private:
   NodeTerms& terms_of(std::uint32_t node, const DriftTimeline& drift);
   void drop_oldest(const NodeVector& value);
   SpellTerms& terms_of_spell(std::uint32_t spell, std::uint32_t node, const DriftTimeline& drift);
-  NodeTerms* find(std::uint32_t node);
   void drop_oldest_spell(const SwayVector& value);
 
   PointMatrix A_ = PointMatrix::Zero();
@@ -142,10 +141,8 @@ class Landmark {
   CalibrationRows B_ = CalibrationRows::Zero();
   CalibrationMatrix C_ = CalibrationMatrix::Zero();
   CalibrationVector g_ = CalibrationVector::Zero();
-  std::array<NodeTerms, kMaxNodes> nodes_{};  // ordered by number
-  std::size_t node_count_ = 0;
-  std::array<SpellTerms, kMaxSpells> spells_{};  // ordered by number
-  std::size_t spell_count_ = 0;
+  NumberedTerms<NodeTerms, kMaxNodes> nodes_;
+  NumberedTerms<SpellTerms, kMaxSpells> spells_;
 };
 
 }  // namespace geoloc

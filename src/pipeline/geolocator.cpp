@@ -111,8 +111,7 @@ class Geolocator::Implementation {
   std::uint64_t reboots_ = 0;  // when ranges_ was begun
   bool has_object_ = false;    // a confirmed one
   std::vector<Detection> selected_;
-  std::optional<HostTime> last_frame_;
-  FrameStamp last_stamp_{};                       // of those located
+  std::optional<FrameStamp> last_stamp_;          // of the frames located
   std::vector<LocatedDetection> turned_located_;  // scratch of track_either_way
 };
 
@@ -147,7 +146,6 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
     return false;
   }
   ++counters.frames_located;
-  last_stamp_ = stamp;
   if (config.terrain && ground.is_level())
     ground = GroundModel(config.terrain, *state.local_frame(), config.joint.sigma_ground_m);
   view = lifted(*nominal_view);
@@ -162,8 +160,7 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
 }
 
 void Geolocator::Implementation::finish() {
-  if (counters.frames_located == 0) return;
-  tracker->finish(located_frame(last_stamp_, view, located));
+  if (last_stamp_) tracker->finish(located_frame(*last_stamp_, view, located));
 }
 
 LocatedFrame Geolocator::Implementation::located_frame(
@@ -193,8 +190,9 @@ void Geolocator::Implementation::track_either_way(const FrameStamp& stamp) {
 /// Within a second no vehicle turns round unseen.
 bool Geolocator::Implementation::may_be_turned(const FrameStamp& stamp) {
   constexpr Duration kUnseen = std::chrono::seconds{1};
-  const auto before = std::exchange(last_frame_, stamp.captured_at_host);
-  return config.method == Method::kJoint && before && stamp.captured_at_host - *before >= kUnseen;
+  const auto before = std::exchange(last_stamp_, stamp);
+  return config.method == Method::kJoint && before &&
+         stamp.captured_at_host - before->captured_at_host >= kUnseen;
 }
 
 /// The joint method's rays meet a level plane at the height of the ground below the vehicle.

@@ -24,8 +24,6 @@ constexpr std::size_t kLeastFrames = 10;
 constexpr double kLeastSpan_s = 1.0;
 /// One object alone may have been mistaken for another.
 constexpr std::size_t kLeastPlaces = 2;
-/// Frames that are compared lie so far apart: long enough to turn, short enough to show the same.
-constexpr double kLeastApart_s = 0.5, kMostApart_s = 1.2;
 /// Frames are held for no longer; where nothing was found, none are for a while, longer each time.
 constexpr double kLongestHold_s = 12.0, kBackOff_s = 20.0;
 /// 1-sigma of a latency that was found.
@@ -34,6 +32,10 @@ constexpr double kLeastSigma_s = 0.1;
 constexpr double kUnknown = -10.0;
 /// So many of the held frames tell of a shift.
 constexpr std::size_t kFramesForShift = 32;
+
+bool is_another(int number, double believed_s) {
+  return std::abs(LatencyScores::latency_s(number) - believed_s) >= kLeastChange_s;
+}
 
 }  // namespace
 
@@ -118,16 +120,6 @@ void ClockWatch::score_held(const PlaceFit& fit) {
   }
 }
 
-/// The earlier one of the held frames that a frame is compared with.
-std::optional<std::size_t> ClockWatch::partner(std::size_t frame) const {
-  for (std::size_t other = frame; other-- > 0;) {
-    const double apart_s = seconds(held_[frame].stamp.captured_at_host - held_[other].stamp.captured_at_host);
-    if (apart_s > kMostApart_s) return std::nullopt;
-    if (apart_s >= kLeastApart_s) return other;
-  }
-  return std::nullopt;
-}
-
 /// False where the vehicle's state is not known.
 bool ClockWatch::add_score(std::size_t frame, double latency_s, double step_s, const PlaceFit& fit,
                            Score& score) const {
@@ -135,9 +127,10 @@ bool ClockWatch::add_score(std::size_t frame, double latency_s, double step_s, c
   if (!tally) return false;
   score.by_places += tally->likelihood;
   ++score.frames;
-  const auto before = partner(frame);
-  if (!before) return true;
-  const auto pair = fit.tally_of_pair(held_[*before], held_[frame], latency_s, step_s);
+  const auto earlier = frames_to_compare(
+      held_[frame], frame, [&](std::size_t n) -> const FrameBoxes& { return held_[frame - n]; });
+  if (!earlier) return true;
+  const auto pair = fit.tally_of_pair(held_[frame - *earlier], held_[frame], latency_s, step_s);
   if (pair) score.by_pairs += pair->likelihood;
   return true;
 }
@@ -164,9 +157,12 @@ double ClockWatch::weight(std::size_t frames) const {
 /// By how much another latency explains the held frames better than the one believed.
 double ClockWatch::gain(const PlaceFit& fit, double believed_s) const {
   const auto best = scores_.best(std::min(kLeastFrames, held_.size()));
-  if (!best || std::abs(LatencyScores::latency_s(*best) - believed_s) < kLeastChange_s) return 0.0;
+  if (!best || !is_another(*best, believed_s)) return 0.0;
   const Score& found = scores_[*best];
-  const Score believed = score_of(believed_s, LatencyScores::kStep_s, found.frames, fit);
+  return gain(found, score_of(believed_s, LatencyScores::kStep_s, found.frames, fit));
+}
+
+double ClockWatch::gain(const Score& found, const Score& believed) const {
   return weight(found.frames) * (found.mean() - believed.mean());
 }
 
@@ -174,14 +170,15 @@ std::optional<LatencyPrior> ClockWatch::decide(const PlaceFit& fit, double belie
   has_wandered_ = false;
   if (!scores_.are_complete(kLeastFrames)) return std::nullopt;
   const auto best = scores_.best(kLeastFrames);
-  if (!best || LatencyScores::is_at_edge(*best) || gain(fit, believed_s) < kLeastGain) return std::nullopt;
+  if (!best || LatencyScores::is_at_edge(*best) || !is_another(*best, believed_s)) return std::nullopt;
   const Score& found = scores_[*best];
+  const Score believed = score_of(believed_s, LatencyScores::kStep_s, found.frames, fit);
+  if (gain(found, believed) < kLeastGain) return std::nullopt;
   const auto peak = scores_.only_peak(*best, kLeastLead / weight(found.frames));
   if (!peak || span_s(found.frames) < kLeastSpan_s) return std::nullopt;
   const double latency_s = LatencyScores::latency_s(*best);
-  const Score believed = score_of(believed_s, LatencyScores::kStep_s, found.frames, fit);
   if (!is_told(found, believed, latency_s, fit)) return std::nullopt;
-  has_wandered_ = has_wandered(found, fit, believed_s);
+  has_wandered_ = has_wandered(found, believed, fit, believed_s);
   if (has_wandered_) return std::nullopt;
   return LatencyPrior{refined_s(latency_s, found.frames, fit),
                       std::max(kLeastSigma_s, 0.5 * peak->half_width_s())};
@@ -222,7 +219,8 @@ std::optional<Eigen::Vector2d> ClockWatch::likely_shift(std::size_t frames, cons
 }
 
 /// Whether a vehicle's position that has wandered would explain as well what another latency does.
-bool ClockWatch::has_wandered(const Score& found, const PlaceFit& fit, double believed_s) {
+bool ClockWatch::has_wandered(const Score& found, const Score& believed, const PlaceFit& fit,
+                              double believed_s) {
   const auto shift_m = likely_shift(found.frames, fit, believed_s);
   if (!shift_m) return false;
   const double cost = 0.5 * shift_m->squaredNorm() / std::pow(fit.expected().wandering_m, 2);
@@ -231,7 +229,6 @@ bool ClockWatch::has_wandered(const Score& found, const PlaceFit& fit, double be
     const auto tally = fit.tally(held_[i], believed_s, LatencyScores::kStep_s, places_, &*shift_m);
     likelihood += tally ? tally->likelihood : kUnknown;
   }
-  const Score believed = score_of(believed_s, LatencyScores::kStep_s, found.frames, fit);
   const double per_frame = weight(found.frames) / static_cast<double>(found.frames);
   return per_frame * (found.sum() - likelihood - believed.by_pairs) + cost < kLeastGain;
 }

@@ -45,25 +45,20 @@ class ClockWatch {
   static constexpr std::size_t kMostShifts = 256;
   using Score = LatencyScores::Score;
 
-  struct Found {
-    LatencyScores::Peak peak;
-    double latency_s;
-  };
-
   void weigh(const FrameBoxes& frame, const PlaceFit& fit, double believed_s);
   bool is_backing_off(HostTime now);
   void hold(const FrameBoxes& frame);
   void score_held(const PlaceFit& fit);
-  std::optional<std::size_t> partner(std::size_t frame) const;
   bool add_score(std::size_t frame, double latency_s, double step_s, const PlaceFit& fit, Score& score) const;
   Score score_of(double latency_s, double step_s, std::size_t frames, const PlaceFit& fit) const;
   double span_s(std::size_t frames) const;
   double weight(std::size_t frames) const;
   double gain(const PlaceFit& fit, double believed_s) const;
+  double gain(const Score& found, const Score& believed) const;
   std::optional<LatencyPrior> decide(const PlaceFit& fit, double believed_s);
   bool is_told(const Score& found, const Score& believed, double latency_s, const PlaceFit& fit) const;
   std::optional<Eigen::Vector2d> likely_shift(std::size_t frames, const PlaceFit& fit, double believed_s);
-  bool has_wandered(const Score& found, const PlaceFit& fit, double believed_s);
+  bool has_wandered(const Score& found, const Score& believed, const PlaceFit& fit, double believed_s);
   double refined_s(double coarse_s, std::size_t frames, const PlaceFit& fit) const;
   void give_up(HostTime now, double back_off_s);
 

@@ -13,9 +13,6 @@ namespace {
 
 /// Objects not known yet stand one to 100 m^2 where nothing else is said.
 constexpr double kUsualDensityOfNew = 0.01;
-/// A look may as well be of something new where leaving it alone costs less than this more: less than the
-/// ambiguity between two tracks, since for want of a look a new object is begun and may be merged later.
-constexpr double kAmbiguityAlone = 2.0;
 /// Assignment and shared error are found in turns.
 constexpr int kRounds = 2;
 /// Room for as many pairs a look; more are looks in a crowd denser than their own uncertainty.

@@ -40,6 +40,10 @@ class JointAssociation {
     bool is_certain() const { return track && !is_ambiguous; }
   };
 
+  /// A look may as well be of something new where leaving it alone costs less than this more: less than the
+  /// ambiguity between two tracks, since for want of a look a new object is begun and may be merged later.
+  static constexpr double kAmbiguityAlone = 2.0;
+
   /// most_explanations: tried of one frame.
   JointAssociation(int max_looks, int max_tracks, std::size_t most_explanations = 32);
 

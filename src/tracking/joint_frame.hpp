@@ -92,6 +92,13 @@ struct FrameShift {
   Eigen::Vector2d correction() const { return offset + drift - common; }
 };
 
+/// By what is known of the vehicle's position by now. ground_height_m: of the level ground above home, in the
+/// frame's lifted view, before the calibration.
+inline FrameShift shift_by(const Calibration& calibration, const NodeVector& drift, double ground_height_m,
+                           const Eigen::Vector2d& common = Eigen::Vector2d::Zero()) {
+  return {calibration.offset_m(), drift.head<2>(), common, ground_height_m - calibration.height_m()};
+}
+
 /// Noise that all looks of a frame share, and that the frames about it share in part.
 struct FrameNoise {
   Eigen::Matrix2d covariance;  ///< of attitude and position [m^2]

@@ -9,6 +9,7 @@
 #include "geoloc/geometry/problems.hpp"
 #include "tracking/gaussian.hpp"
 #include "tracking/ground_prior.hpp"
+#include "tracking/head_bound.hpp"
 #include "tracking/identity.hpp"
 #include "tracking/known_places.hpp"
 #include "tracking/misses.hpp"
@@ -37,6 +38,11 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
 
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
 constexpr double kSigmaOfFoundLatency_s = 0.1;
+
+double height_above_plane_m(const Projector& projector, const FrameView& view) {
+  return view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
+}
+
 /// Where objects move to another slope of the ground, that is what is known of their height.
 void follow_ground(const GroundModel& ground, TrackTable& tracks) {
   if (ground.is_level()) return;
@@ -150,15 +156,18 @@ bool JointTracker::is_turned(const LocatedFrame& located, const JointFrame& fram
 /// Nothing is learnt yet.
 FrameFit JointTracker::fit(const LocatedFrame& located, const JointFrame& frame) {
   const FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
-  const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
+  const FrameNoise noise = noise_of(looks, frame);
   const Explanation& explanation = look_matcher_.try_to_explain(looks.at_rest, noise, tracks_);
-  return fit_of(looks.at_rest, explanation, frame, shift_of(frame, explanation.common_shift), config_,
+  return fit_of(looks.at_rest, explanation, frame, shift_of(frame, explanation), config_,
                 detection_rate_.probability(), tracks_);
 }
 
-FrameShift JointTracker::shift_of(const JointFrame& frame, const Eigen::Vector2d& common_shift) const {
-  return {errors_.calibration.offset_m(), frame.drift.head<2>(), common_shift,
-          frame.ground_height_m - errors_.calibration.height_m()};
+FrameShift JointTracker::shift_of(const JointFrame& frame, const Explanation& explanation) const {
+  return shift_by(errors_.calibration, frame.drift, frame.ground_height_m, explanation.common_shift);
+}
+
+FrameNoise JointTracker::noise_of(const FrameLooks& looks, const JointFrame& frame) const {
+  return {looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
 }
 
 void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
@@ -166,10 +175,10 @@ void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
   errors_.is_opening = opening_looks_.is_open();
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
-  const FrameNoise noise{looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
+  const FrameNoise noise = noise_of(looks, frame);
   const Explanation& explanation = look_matcher_.explain(looks.at_rest, noise, tracks_);
   learn_noise(looks.at_rest, explanation);
-  const FrameShift shift = shift_of(frame, explanation.common_shift);
+  const FrameShift shift = shift_of(frame, explanation);
 
   const bool may_be_twins = weigh_missed(looks.at_rest, frame, shift, config_, detection_rate_, tracks_);
   if (may_be_twins) schedule_.request();
@@ -216,17 +225,17 @@ void JointTracker::watch_start(const LocatedFrame& located) {
 
 /// The same in mid-flight, where a clock has stepped.
 void JointTracker::watch_clock(const LocatedFrame& located) {
-  const double camera_height_m =
-      located.view.enu_from_camera.translation.z() - located.projector.config().ground_height_above_home_m;
+  const double sigma_attitude_rad = std::sqrt(errors_.noise.attitude_variance_rad2());
+  const double wandering_m =
+      std::hypot(errors_.drift.position_scale() * errors_.accuracy.wandering_sigma_m(),
+                 sigma_attitude_rad * height_above_plane_m(located.projector, located.view));
   if (!clock_watch_.is_in_doubt())
     list_places(tracks_, errors_, config_.drift, located, proven_at_, clock_watch_.places());
   const auto latency =
       clock_watch_.observe(located.stamp, located.detections,
                            {located.viewer, located.projector, errors_, false, located.view.terrain_m},
                            {detection_rate_.probability(), clutter_rate_.per_frame(), config_.sigma_px,
-                            std::sqrt(errors_.noise.attitude_variance_rad2()),
-                            std::hypot(errors_.drift.position_scale() * errors_.accuracy.wandering_sigma_m(),
-                                       std::sqrt(errors_.noise.attitude_variance_rad2()) * camera_height_m)});
+                            sigma_attitude_rad, wandering_m});
   if (clock_watch_.proves()) proven_at_ = located.view.vehicle.time;
   if (latency) go_on_with_latency(*latency, located);
 }
@@ -268,7 +277,7 @@ void JointTracker::go_on_with_latency(const LatencyPrior& latency, const Located
 
 /// Tracks hold what was whitened with the roots, so that these change with the solution only.
 void JointTracker::bound_height(const Projector& projector, const FrameView& view) {
-  errors_.bound_height(view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m);
+  errors_.bound_height(height_above_plane_m(projector, view));
 }
 
 JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
@@ -289,7 +298,7 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   tracks_.clear_evidence();
   DriftTimeline& drift = errors_.drift;
   const NodeSpan span = cover(vehicle);
-  bound_head();
+  if (bound_head(config_.drift, errors_.drift, heights_, tracks_)) opening_looks_.close();
   measure_height(located, span);
   return {located.projector,
           located.view,
@@ -314,42 +323,6 @@ void JointTracker::learn_noise(const std::vector<Look>& looks, const Explanation
                        pairing.own_covariance, known_in_part * known_in_part.transpose()});
   }
   errors_.noise.learn_from_frame(fast_position_variance_m2(config_, errors_));
-}
-
-/// However long the flight: the older nodes are, the fewer stand for them.
-void JointTracker::bound_head() {
-  DriftTimeline& drift = errors_.drift;
-  while (drift.sway().is_full()) freeze_oldest_spell();
-  while (drift.size() > config_.drift.max_nodes) {
-    opening_looks_.close();
-    if (const auto node = drift.next_to_thin()) {
-      thin(*node);
-    } else {
-      freeze_oldest_node();
-    }
-  }
-}
-
-void JointTracker::thin(const ThinnedNode& node) {
-  DriftTimeline& drift = errors_.drift;
-  const SwayTimeline& sway = drift.sway();
-  while (sway.size() > 1 && sway.spell(sway.begin()).node <= node.number) freeze_oldest_spell();
-  for (RestingObject& track : tracks_) track.landmark->thin(node, drift);
-  heights_.thin(node);
-  drift.thin(node);
-}
-
-void JointTracker::freeze_oldest_node() {
-  DriftTimeline& drift = errors_.drift;
-  for (RestingObject& track : tracks_) track.landmark->freeze(drift.begin(), drift);
-  heights_.freeze_oldest(drift);
-  drift.freeze_oldest();
-}
-
-void JointTracker::freeze_oldest_spell() {
-  SwayTimeline& sway = errors_.drift.sway();
-  for (RestingObject& track : tracks_) track.landmark->freeze_spell(sway.begin(), errors_.drift);
-  sway.freeze_oldest();
 }
 
 /// Where the state has stepped, tracks seen before say less of what comes.

@@ -62,12 +62,9 @@ class JointTracker final : public Tracker {
   void learn(const LocatedFrame& located, const JointFrame& frame);
   bool is_turned(const LocatedFrame& located, const JointFrame& frame);
   FrameFit fit(const LocatedFrame& located, const JointFrame& frame);
-  FrameShift shift_of(const JointFrame& frame, const Eigen::Vector2d& common_shift) const;
+  FrameShift shift_of(const JointFrame& frame, const Explanation& explanation) const;
+  FrameNoise noise_of(const FrameLooks& looks, const JointFrame& frame) const;
   NodeSpan cover(const VehicleState& vehicle);
-  void bound_head();
-  void thin(const ThinnedNode& node);
-  void freeze_oldest_node();
-  void freeze_oldest_spell();
   void cover_known_points(const LocatedFrame& frame, const FrameShift& shift);
   void absorb_matched(const FrameLooks& looks, const Explanation& explanation, const JointFrame& frame);
   void begin_tentative(const std::vector<Look>& looks, const Explanation& explanation,

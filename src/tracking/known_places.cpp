@@ -19,14 +19,6 @@ double wandered_since(VehicleTime then, VehicleTime now, double time_constant_s)
   return std::sqrt(1.0 - std::exp(-2.0 * ago_s / time_constant_s));
 }
 
-/// By the newest drift node there is: the frame's own is not made yet.
-FrameShift shift_of(const LocatedFrame& frame, const SharedErrorEstimate& errors) {
-  const NodeVector& drift = errors.drift.node(errors.drift.end() - 2).mean;
-  const double ground_height_m = frame.projector.config().ground_height_above_home_m + frame.view.lifted_m;
-  return {errors.calibration.offset_m(), drift.head<2>(), Eigen::Vector2d::Zero(),
-          ground_height_m - errors.calibration.height_m()};
-}
-
 }  // namespace
 
 void list_places(const TrackTable& tracks, const SharedErrorEstimate& errors, const DriftConfig& drift,
@@ -34,7 +26,10 @@ void list_places(const TrackTable& tracks, const SharedErrorEstimate& errors, co
   places.clear();
   if (errors.drift.size() == 0) return;
   const VehicleTime now = frame.view.vehicle.time;
-  const FrameShift shift = shift_of(frame, errors);
+  // By the newest drift node there is: the frame's own is not made yet.
+  const NodeVector& newest = errors.drift.node(errors.drift.end() - 2).mean;
+  const FrameShift shift = shift_by(
+      errors.calibration, newest, frame.projector.config().ground_height_above_home_m + frame.view.lifted_m);
   for (const RestingObject& track : tracks) {
     WatchedPlace place{shift.shown(Eigen::Vector3d(track.position_in_enu)), 0.0, 0.0,
                        wandered_since(track.last_look, now, drift.position_time_constant_s), false};

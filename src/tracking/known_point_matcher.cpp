@@ -24,8 +24,6 @@ constexpr std::size_t kExplanationsPerPoint = 17, kMostExplanations = 200;
 /// In a thousand points one may be taken for another's object that stands where its own was not seen
 /// (2 ln 1000).
 constexpr double kCertainty = 13.8;
-/// What JointAssociation takes for doubt whether something is new, in the same units as the ambiguity.
-constexpr double kDoubtOfNew = 2.0;
 
 }  // namespace
 
@@ -50,7 +48,8 @@ void KnownPointMatcher::look_at(Entry& entry, VehicleTime now, double found) {
   entry.covered_at = now;
 }
 
-/// Of objects that may stand there while the point's own was not seen, times what asks for that certainty.
+/// The density of objects that may stand there while the point's own was not seen, times a factor that asks
+/// for that certainty.
 double KnownPointMatcher::density_of_others(std::size_t open,
                                             const std::vector<Candidate>& candidates) const {
   const Entry& entry = entries_[open_[open]];
@@ -58,7 +57,8 @@ double KnownPointMatcher::density_of_others(std::size_t open,
     return (candidate.position_in_enu - entry.on_ground_in_enu->head<2>()).norm() < kAround_m;
   });
   const double density = std::max(kLeastDensity, static_cast<double>(around) / (kPi * kAround_m * kAround_m));
-  return density * std::max(entry.unseen, kGone) * std::exp(0.5 * (kCertainty - kDoubtOfNew));
+  return density * std::max(entry.unseen, kGone) *
+         std::exp(0.5 * (kCertainty - JointAssociation::kAmbiguityAlone));
 }
 
 void KnownPointMatcher::list_open() {

@@ -15,6 +15,7 @@ class LatencyScores {
   static constexpr int kReach = 70;
   static constexpr int kSize = 2 * kReach + 1;
   static constexpr int kEdge = 3;
+
   /// Whether the best latency may lie beyond those that are tried.
   static constexpr bool is_at_edge(int n) { return n < kEdge || n >= kSize - kEdge; }
 
@@ -46,7 +47,7 @@ class LatencyScores {
   /// Whether even the one whose states come last has so many frames.
   bool are_complete(std::size_t least_frames) const { return scores_.front().frames >= least_frames; }
 
-  /// Of those that have so many frames.
+  /// The one of the highest mean among those that have so many frames.
   std::optional<int> best(std::size_t least_frames) const {
     std::optional<int> best;
     for (int n = 0; n < kSize; ++n) {

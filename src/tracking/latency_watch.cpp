@@ -8,8 +8,8 @@
 namespace geoloc {
 namespace {
 
-/// Frames that are compared lie so far apart: long enough to turn, short enough to show the same.
-constexpr double kLeastApart_s = 0.5, kMostApart_s = 1.2;
+/// Boxes of a frame that are compared.
+constexpr std::size_t kMostBoxes = 8;
 /// A box farther from where it should be is another object's, or missed.
 constexpr double kMostApart_px = 15.0, kUsualWidth_px = 1280.0;
 /// Latencies that are tried.
@@ -27,15 +27,6 @@ constexpr double kHopeless_px2 = 80.0, kFarBetter = 0.25;
 
 /// A flight's first pairs of frames after which a search is due.
 constexpr std::array<int, 12> kDue{12, 20, 30, 40, 50, 60, 80, 100, 120, 150, 180, 220};
-
-/// Pixels of a larger image, or of a vehicle whose attitude is noisier, count for as much less.
-double scale_of(const CalibratedViewer& viewer, const CameraIntrinsics& image) {
-  constexpr double kSigmas = 5.0;
-  const double size = image.width_px / kUsualWidth_px;
-  if (viewer.calibration_is_void) return size;
-  const double noise_px = std::sqrt(viewer.errors.noise.attitude_variance_rad2()) * image.fx_px / size;
-  return size * std::max(1.0, kSigmas * noise_px / kMostApart_px);
-}
 
 bool is_well_inside(const Eigen::Vector2d& pixel, double margin_px, const CameraIntrinsics& image) {
   return pixel.x() > margin_px && pixel.x() < image.width_px - margin_px && pixel.y() > margin_px &&
@@ -58,40 +49,28 @@ void LatencyWatch::begin_anew() {
 std::optional<double> LatencyWatch::observe(FrameStamp stamp, const std::vector<LocatedDetection>& detections,
                                             const CalibratedViewer& viewer) {
   if (detections.empty() || !is_at_start()) return std::nullopt;
-  Frame& newest = frames_[next_];
+  frames_[next_] = FrameBoxes(stamp, detections, kMostBoxes);
   next_ = (next_ + 1) % kFrames;
   size_ = std::min(size_ + 1, kFrames);
-  newest.stamp = stamp;
-  newest.count = std::min(detections.size(), kMostPixels);
-  for (std::size_t i = 0; i < newest.count; ++i) newest.pixels[i] = detections[i].detection.box.centre();
   if (distance_of_pair(0, viewer.errors.calibration.latency_s(), viewer).looks == 0) return std::nullopt;
   ++pairs_;
   if (std::find(kDue.begin(), kDue.end(), pairs_) == kDue.end()) return std::nullopt;
   return search(viewer);
 }
 
-/// The frame that a frame is compared with, by ages.
-std::optional<std::size_t> LatencyWatch::partner(std::size_t age) const {
-  const HostTime stamp = frame(age).stamp.captured_at_host;
-  for (std::size_t other = age + 1; other < size_; ++other) {
-    const double apart_s = seconds(stamp - frame(other).stamp.captured_at_host);
-    if (apart_s > kMostApart_s) return std::nullopt;
-    if (apart_s >= kLeastApart_s) return other;
-  }
-  return std::nullopt;
-}
-
 LatencyWatch::Distance LatencyWatch::distance_of_pair(std::size_t age, double latency_s,
                                                       const CalibratedViewer& viewer) const {
-  const auto before_age = partner(age);
-  if (!before_age) return {};
-  const Frame& now = frame(age);
-  const Frame& before = frame(*before_age);
+  const FrameBoxes& now = frame(age);
+  const auto earlier = frames_to_compare(now, size_ - 1 - age,
+                                         [&](std::size_t n) -> const FrameBoxes& { return frame(age + n); });
+  if (!earlier) return {};
+  const FrameBoxes& before = frame(age + *earlier);
   const Projector& projector = viewer.projector;
   const auto view_before = viewer.at(before.stamp, latency_s);
   const auto view_now = viewer.at(now.stamp, latency_s);
   if (!view_before || !view_now) return {};
-  const double scale = scale_of(viewer, projector.camera().intrinsics());
+  // Pixels of a larger image count for as much less.
+  const double scale = projector.camera().intrinsics().width_px / kUsualWidth_px;
   const double most_px = kMostApart_px * scale;
   const double ground_m = projector.config().ground_height_above_home_m;
   Distance distance;

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "geoloc/projection/ground_fix.hpp"
 #include "tracking/calibrated_viewer.hpp"
+#include "tracking/frame_boxes.hpp"
 
 namespace geoloc {
 
@@ -32,14 +31,7 @@ class LatencyWatch {
   void begin_anew();
 
  private:
-  static constexpr std::size_t kMostPixels = 8;
   static constexpr std::size_t kFrames = 128;
-
-  struct Frame {
-    FrameStamp stamp;
-    std::array<Eigen::Vector2d, kMostPixels> pixels;
-    std::size_t count = 0;
-  };
 
   /// Mean square of how far boxes lie from where an earlier frame tells them to be, none farther than some
   /// pixels.
@@ -64,14 +56,13 @@ class LatencyWatch {
 
   class Grid;
 
-  const Frame& frame(std::size_t age) const { return frames_[(next_ + kFrames - 1 - age) % kFrames]; }
-  std::optional<std::size_t> partner(std::size_t age) const;
+  const FrameBoxes& frame(std::size_t age) const { return frames_[(next_ + kFrames - 1 - age) % kFrames]; }
   Distance distance_of_pair(std::size_t age, double latency_s, const CalibratedViewer& viewer) const;
   Distance distance(double latency_s, const CalibratedViewer& viewer) const;
   std::optional<double> search(const CalibratedViewer& viewer) const;
   double refined_s(double coarse_s, const CalibratedViewer& viewer) const;
 
-  std::vector<Frame> frames_;  // a ring
+  std::vector<FrameBoxes> frames_;  // a ring
   std::size_t next_ = 0;
   std::size_t size_ = 0;
   int pairs_ = 0;  // since the start

@@ -142,8 +142,7 @@ LandmarkObservation LookMaker::observation(const GroundFix& fix, const FixJacobi
 LandmarkObservation LookMaker::linearised_at(const Point& position_in_enu, const Look& look,
                                              double looks_that_share, const JointFrame& frame,
                                              const SharedErrorEstimate& errors) const {
-  const FrameShift shift{errors.calibration.offset_m(), frame.drift.head<2>(), Eigen::Vector2d::Zero(),
-                         frame.ground_height_m - errors.calibration.height_m()};
+  const FrameShift shift = shift_by(errors.calibration, frame.drift, frame.ground_height_m);
   const Rigid3d& enu_from_camera = frame.view.enu_from_camera;
   const Eigen::Vector3d shown_in_enu = shift.shown(Eigen::Vector3d(position_in_enu));
   const auto pixel = frame.projector.reproject(shown_in_enu, enu_from_camera);

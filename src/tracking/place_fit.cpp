@@ -2,6 +2,7 @@
 #include "tracking/place_fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -27,11 +28,6 @@ constexpr double kRadiiToTell = 1.5, kOther_s = 0.3, kFarOther_s = 1.0;
 constexpr double kLeastDistance_m = 0.5;
 
 }  // namespace
-
-FrameBoxes::FrameBoxes(FrameStamp frame_stamp, const std::vector<LocatedDetection>& detections)
-    : stamp(frame_stamp), count(std::min(detections.size(), kMost)) {
-  for (std::size_t i = 0; i < count; ++i) pixels[i] = detections[i].detection.box.centre();
-}
 
 double PlaceFit::size() const {
   return viewer_.projector.camera().intrinsics().width_px / kUsualWidth_px;
@@ -111,7 +107,8 @@ PlaceFit::Tally PlaceFit::tally(const FrameBoxes& frame, const FrameView& view, 
   return tally;
 }
 
-/// Of the nearest box that shows no other place; it is taken where it is likelier than a miss.
+/// The likelihood of the nearest box that shows no other place; the box is taken where it is likelier than a
+/// miss.
 double PlaceFit::likelihood_of(const Eigen::Vector2d& shown, double variance_px2, const FrameBoxes& frame,
                                std::bitset<FrameBoxes::kMost>& taken) const {
   const double around_px2 = std::pow(kAround_px * size(), 2);

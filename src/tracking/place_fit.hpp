@@ -2,13 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <bitset>
 #include <cstddef>
 #include <optional>
 #include <vector>
 
 #include "tracking/calibrated_viewer.hpp"
+#include "tracking/frame_boxes.hpp"
 
 namespace geoloc {
 
@@ -19,18 +19,6 @@ struct WatchedPlace {
   double sigma_up_m;  ///< and of its height above the camera's
   double wandering;   ///< share of the vehicle's wandering that has come since it was seen
   bool is_known;      ///< for long enough to tell of the latency; else it only explains boxes
-};
-
-/// The boxes of a frame, the most confident ones.
-struct FrameBoxes {
-  static constexpr std::size_t kMost = 16;
-
-  FrameStamp stamp;
-  std::array<Eigen::Vector2d, kMost> pixels;
-  std::size_t count = 0;
-
-  FrameBoxes() = default;
-  FrameBoxes(FrameStamp stamp, const std::vector<LocatedDetection>& detections);
 };
 
 /// What is known of detector and vehicle.

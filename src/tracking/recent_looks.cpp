@@ -31,8 +31,7 @@ void RecentLooks::rename(std::uint64_t gone, std::uint64_t kept) {
 void RecentLooks::take_out(VehicleTime since, const DriftTimeline& drift, TrackTable& tracks) {
   for (std::size_t i = 0; i < size_; ++i) {
     const Entry& entry = entries_[i];
-    if (entry.time < since || entry.observation.span.first < std::max(drift.begin(), drift.begin_of_fine()))
-      continue;
+    if (entry.time < since || entry.observation.span.first < drift.begin_of_fine()) continue;
     RestingObject* const object = tracks.find(entry.track_id);
     if (object == nullptr || object->sums_since >= since) continue;
     take_out_look(*object, entry.observation, entry.pixel_noise, drift);

@@ -162,13 +162,13 @@ class LandmarkSums : public ::testing::Test {
       const auto next = head.nodes.find(terms.number + 1);
       if (next != head.nodes.end()) cost += 2.0 * d.dot(terms.C_next * next->second);
     }
-    std::for_each(sums.spells_begin(), sums.spells_end(), [&](const Landmark::SpellTerms& terms) {
+    for (const Landmark::SpellTerms& terms : sums.spells()) {
       const SwayVector& s = head.spells.at(terms.number);
       linear += terms.B * s;
       cost += s.dot(terms.C_own * s) + 2.0 * c.dot(terms.C_calibration * s) - 2.0 * terms.g.dot(s);
       for (std::uint32_t side = 0; side < 2; ++side)
         cost += 2.0 * head.nodes.at(terms.node + side).dot(terms.C_node[side] * s);
-    });
+    }
     return cost + x.dot(sums.A() * x) - 2.0 * x.dot(linear);
   }
 
@@ -250,8 +250,7 @@ class LandmarkSums : public ::testing::Test {
   }
   static std::vector<std::uint32_t> spells_of(const Told& told) {
     std::vector<std::uint32_t> numbers;
-    std::for_each(told.landmark.spells_begin(), told.landmark.spells_end(),
-                  [&](const Landmark::SpellTerms& terms) { numbers.push_back(terms.number); });
+    for (const Landmark::SpellTerms& terms : told.landmark.spells()) numbers.push_back(terms.number);
     return numbers;
   }
   using Numbers = std::vector<std::uint32_t>;

@@ -8,24 +8,17 @@
 
 #include "geoloc/pipeline/geolocator.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/map_laws.hpp"
 #include "support/nadir_flight.hpp"
 
 namespace geoloc {
 namespace {
 
+using testing::expect_each_place_once;
+using testing::in_gusts;
 using testing::NadirFlight;
-using testing::Pose;
 
 constexpr double kStep_s = 40.0, kEnd_s = 80.0;
-
-/// Along a lane and back, 20 m up and at up to 5 m/s, in gusts.
-Pose to_and_fro(double time_s) {
-  const double north_m = 20.0 * std::sin(0.25 * time_s - 1.5) - 20.0 * std::sin(-1.5);
-  return {{0.0, north_m, 20.0},
-          0.05 * std::sin(0.9 * time_s) + 0.02 * std::sin(2.3 * time_s),
-          0.03 * std::sin(1.3 * time_s),
-          0.0};
-}
 
 const std::vector<Eigen::Vector2d> kPlaces{{-6, 2}, {4, 8}, {-3, 14}, {7, 20}, {0, 27}, {-7, 33}, {5, 38}};
 
@@ -48,30 +41,16 @@ std::vector<FrameDetections> frames_with_step(const NadirFlight& flight, double 
   return frames;
 }
 
-void expect_each_place_once(const Geolocator& geolocator) {
-  std::vector<int> objects(kPlaces.size(), 0);
-  for (const Track& track : geolocator.tracks()) {
-    if (track.status != TrackStatus::kConfirmed) continue;
-    const auto nearest = std::min_element(kPlaces.begin(), kPlaces.end(), [&](const auto& a, const auto& b) {
-      return (a - track.position_in_enu.mean).norm() < (b - track.position_in_enu.mean).norm();
-    });
-    ++objects[static_cast<std::size_t>(nearest - kPlaces.begin())];
-    const double sigma_m = std::sqrt(track.position_in_enu.covariance.trace());
-    EXPECT_LT((*nearest - track.position_in_enu.mean).norm(), std::min(4.0 * sigma_m, 0.3));
-  }
-  for (std::size_t i = 0; i < kPlaces.size(); ++i) EXPECT_EQ(objects[i], 1) << kPlaces[i].transpose();
-}
-
 class CameraClock : public ::testing::TestWithParam<double> {};
 
 TEST_P(CameraClock, ThatStepsMovesNoObjectLosesNoneAndMakesNone) {
-  NadirFlight flight(GeolocatorConfig{}, to_and_fro);
+  NadirFlight flight(GeolocatorConfig{}, in_gusts);
   for (const FrameDetections& frame : frames_with_step(flight, GetParam())) {
     flight.fly_until(seconds(frame.captured_at.time_since_epoch()) + 3.0);
     flight.geolocator().process(frame);
   }
   const Geolocator& geolocator = flight.geolocator();
-  expect_each_place_once(geolocator);
+  expect_each_place_once(kPlaces, geolocator.tracks());
   EXPECT_EQ(geolocator.track_counters().latency_changes, 1U);
   EXPECT_NEAR(geolocator.calibration()->latency_s(), GetParam(), 0.03);
 }
@@ -79,18 +58,18 @@ TEST_P(CameraClock, ThatStepsMovesNoObjectLosesNoneAndMakesNone) {
 INSTANTIATE_TEST_SUITE_P(MidFlight, CameraClock, ::testing::Values(-2.9, -1.0, -0.3, 0.3, 1.0, 2.9));
 
 TEST(CameraClock, ThatDoesNotStepIsBelieved) {
-  NadirFlight flight(GeolocatorConfig{}, to_and_fro);
+  NadirFlight flight(GeolocatorConfig{}, in_gusts);
   for (const FrameDetections& frame : frames_with_step(flight, 0.0)) {
     flight.fly_until(seconds(frame.captured_at.time_since_epoch()));
     flight.geolocator().process(frame);
   }
-  expect_each_place_once(flight.geolocator());
+  expect_each_place_once(kPlaces, flight.tracks());
   EXPECT_EQ(flight.geolocator().track_counters().latency_changes, 0U);
 }
 
 /// One frame that is shaken, and a detector that sees nothing for a second, are no step.
 TEST(CameraClock, IsBelievedWhereAFrameIsShakenOrEmpty) {
-  NadirFlight flight(GeolocatorConfig{}, to_and_fro);
+  NadirFlight flight(GeolocatorConfig{}, in_gusts);
   for (FrameDetections& frame : frames_with_step(flight, 0.0)) {
     const double time_s = seconds(frame.captured_at.time_since_epoch());
     if (std::abs(time_s - 40.0) < 0.01)
@@ -99,15 +78,15 @@ TEST(CameraClock, IsBelievedWhereAFrameIsShakenOrEmpty) {
     flight.fly_until(time_s);
     flight.geolocator().process(frame);
   }
-  expect_each_place_once(flight.geolocator());
+  expect_each_place_once(kPlaces, flight.tracks());
   EXPECT_EQ(flight.geolocator().track_counters().latency_changes, 0U);
 }
 
 TEST(CameraClock, ThatStepsCausesNoAllocation) {
-  NadirFlight flight(GeolocatorConfig{}, to_and_fro);
+  NadirFlight flight(GeolocatorConfig{}, in_gusts);
   const std::vector<FrameDetections> frames = frames_with_step(flight, 1.0);
   const auto half = static_cast<std::ptrdiff_t>(frames.size() / 2) - 20;
-  NadirFlight again(GeolocatorConfig{}, to_and_fro);
+  NadirFlight again(GeolocatorConfig{}, in_gusts);
   Geolocator& geolocator = again.geolocator();
   std::size_t allocations = 0;
   for (auto frame = frames.begin(); frame != frames.end(); ++frame) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geoloc/pipeline/geolocator.hpp"
+#include "support/map_laws.hpp"
 #include "support/nadir_flight.hpp"
 
 namespace geoloc {
@@ -55,14 +56,7 @@ Path too_high_by(double too_high_m, const Path& truth) {
 /// The only confirmed object within a metre of the place; nullptr where there is none, or where there are
 /// several.
 const Track* object_at(const Eigen::Vector3d& place, const NadirFlight& flight) {
-  const Track* found = nullptr;
-  for (const Track& track : flight.tracks()) {
-    if (track.status != TrackStatus::kConfirmed) continue;
-    if ((track.position_in_enu.mean - place.head<2>()).norm() > 1.0) continue;
-    if (found != nullptr) return nullptr;
-    found = &track;
-  }
-  return found;
+  return testing::object_at(place.head<2>(), flight.tracks(), 1.0);
 }
 
 // --- Where objects are.

@@ -12,6 +12,7 @@
 #include "geoloc/pipeline/geolocator.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/map_laws.hpp"
 #include "support/nadir_flight.hpp"
 
 namespace geoloc {
@@ -115,14 +116,7 @@ class LongFlight {
 
   /// The one confirmed object there; nullptr: none, or several.
   const Track* object_at(const Eigen::Vector3d& place) const {
-    const Track* found = nullptr;
-    for (const Track& track : flight_.tracks()) {
-      if (track.status != TrackStatus::kConfirmed) continue;
-      if ((track.position_in_enu.mean - place.head<2>()).norm() > 2.4) continue;
-      if (found != nullptr) return nullptr;
-      found = &track;
-    }
-    return found;
+    return testing::object_at(place.head<2>(), flight_.tracks(), 2.4);
   }
 
   /// Squared error of the first field, against the covariance that is stated of it: 2 on average. Its objects

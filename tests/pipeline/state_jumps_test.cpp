@@ -10,11 +10,13 @@
 #include "geoloc/pipeline/geolocator.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "support/allocation_counter.hpp"
+#include "support/map_laws.hpp"
 #include "support/nadir_flight.hpp"
 
 namespace geoloc {
 namespace {
 
+using testing::expect_each_place_once;
 using testing::NadirFlight;
 using testing::Path;
 using testing::Pose;
@@ -44,21 +46,6 @@ Path told_of(const Jump& jump) {
 
 const std::vector<Eigen::Vector2d> kPlaces{{-6, 2}, {4, 8}, {-3, 14}, {7, 20}, {0, 27}, {-7, 33}, {5, 38}};
 
-/// Every place has one confirmed object within its sigmas, and there is no other.
-void expect_each_place_once(const NadirFlight& flight) {
-  std::vector<int> objects(kPlaces.size(), 0);
-  for (const Track& track : flight.tracks()) {
-    if (track.status != TrackStatus::kConfirmed) continue;
-    const auto nearest = std::min_element(kPlaces.begin(), kPlaces.end(), [&](const auto& a, const auto& b) {
-      return (a - track.position_in_enu.mean).norm() < (b - track.position_in_enu.mean).norm();
-    });
-    ++objects[static_cast<std::size_t>(nearest - kPlaces.begin())];
-    const double sigma_m = std::sqrt(track.position_in_enu.covariance.trace());
-    EXPECT_LT((*nearest - track.position_in_enu.mean).norm(), std::min(4.0 * sigma_m, 0.3));
-  }
-  for (std::size_t i = 0; i < kPlaces.size(); ++i) EXPECT_EQ(objects[i], 1) << kPlaces[i].transpose();
-}
-
 TEST(StateJumps, MoveNoObjectAndMakeNone) {
   const Jump jumps[] = {{{{40, -30, 0}, 0, 0, 0}, 14.95},
                         {{{-1.8, 2.4, 0}, 0, 0, 0}, 1e9},
@@ -72,7 +59,7 @@ TEST(StateJumps, MoveNoObjectAndMakeNone) {
       int lost = 0;
       for (int i = 0; i < 300; ++i) lost += flight.see(0.1 * i, kPlaces) ? 0 : 1;
       EXPECT_LE(lost, 2) << "only where the state steps";
-      if (method == Method::kJoint) expect_each_place_once(flight);
+      if (method == Method::kJoint) expect_each_place_once(kPlaces, flight.tracks());
       const auto confirmed =
           std::count_if(flight.tracks().begin(), flight.tracks().end(),
                         [](const Track& track) { return track.status == TrackStatus::kConfirmed; });
@@ -94,7 +81,7 @@ TEST(StateJumps, BeforeAnyObjectIsKnownAreBelieved) {
   NadirFlight flight(GeolocatorConfig{}, told, to_and_fro);
   for (int i = 0; i < 30; ++i) flight.see(0.1 * i, {});
   for (int i = 30; i < 300; ++i) flight.see(0.1 * i, kPlaces);
-  expect_each_place_once(flight);
+  expect_each_place_once(kPlaces, flight.tracks());
 }
 
 TEST(StateJumps, AllocateNothing) {

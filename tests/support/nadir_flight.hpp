@@ -78,7 +78,29 @@ inline Geodetic geodetic_of(const Eigen::Vector2d& place) {
   return {latitude_deg, kLongitude_deg + place.x() / across_m / kDegree};
 }
 
+/// What the vehicle reports of a pose.
+inline PositionSample position_sample(double time_s, const Pose& pose) {
+  PositionSample position;
+  position.time = at_s(time_s);
+  position.position = geodetic_of(pose.position.head<2>());
+  position.height_above_home_m = pose.position.z();
+  position.height_msl_m = pose.position.z() + 10.0;
+  return position;
+}
+inline AttitudeSample attitude_sample(double time_s, const Pose& pose) {
+  return {at_s(time_s), {pose.roll, pose.pitch, pose.yaw}};
+}
+
 using Path = std::function<Pose(double time_s)>;
+
+/// To the north and back at up to 5 m/s, in gusts.
+inline Pose in_gusts(double time_s) {
+  const double north_m = 20.0 * std::sin(0.25 * time_s - 1.5) - 20.0 * std::sin(-1.5);
+  return {{0.0, north_m, 20.0},
+          0.05 * std::sin(0.9 * time_s) + 0.02 * std::sin(2.3 * time_s),
+          0.03 * std::sin(1.3 * time_s),
+          0.0};
+}
 
 inline Path hovering_at(const Eigen::Vector3d& position) {
   return [=](double) { return Pose{position, 0.0, 0.0, 0.0}; };
@@ -122,14 +144,10 @@ class NadirFlight {
     for (; 0.1 * samples_ < time_s + 1.0; ++samples_) {
       const double sample_s = 0.1 * samples_;
       const Pose pose = reported_(sample_s);
-      PositionSample position;
-      position.time = at_s(sample_s);
-      position.position = geodetic_of(pose.position.head<2>());
-      position.height_above_home_m = pose.position.z();
-      position.height_msl_m = pose.position.z() + 10.0;
+      PositionSample position = position_sample(sample_s, pose);
       position.sigma_horizontal_m = accuracy_m_;
       geolocator_.add(position);
-      geolocator_.add(AttitudeSample{at_s(sample_s), {pose.roll, pose.pitch, pose.yaw}});
+      geolocator_.add(attitude_sample(sample_s, pose));
     }
   }
 

@@ -25,13 +25,8 @@ struct WatchedFlight {
     for (; 0.1 * samples < time_s + 0.5; ++samples) {
       const double sample_s = 0.1 * samples;
       const Pose pose = path(sample_s);
-      PositionSample position;
-      position.time = at_s(sample_s);
-      position.position = geodetic_of(pose.position.head<2>());
-      position.height_above_home_m = pose.position.z();
-      position.height_msl_m = pose.position.z() + 10.0;
-      state.add(position);
-      state.add(AttitudeSample{at_s(sample_s), {pose.roll, pose.pitch, pose.yaw}});
+      state.add(position_sample(sample_s, pose));
+      state.add(attitude_sample(sample_s, pose));
     }
   }
 
@@ -64,15 +59,6 @@ struct WatchedFlight {
   SharedErrorEstimate errors{PositionAccuracy{0.5, 0.2, 0.1}, HeightPrior{0.0, 1.0}, NoiseEstimate(0.005),
                              DriftConfig{}, solver};
 };
-
-/// To the north and back at up to 5 m/s, in gusts.
-inline Pose in_gusts(double time_s) {
-  const double north_m = 20.0 * std::sin(0.25 * time_s - 1.5) - 20.0 * std::sin(-1.5);
-  return {{0.0, north_m, 20.0},
-          0.05 * std::sin(0.9 * time_s) + 0.02 * std::sin(2.3 * time_s),
-          0.03 * std::sin(1.3 * time_s),
-          0.0};
-}
 
 /// To the north, level and at 5 m/s: there is no turning that would tell of a latency.
 inline Pose straight_on(double time_s) {

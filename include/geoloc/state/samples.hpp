@@ -14,7 +14,7 @@ namespace geoloc {
 struct AttitudeSample {
   VehicleTime time;
   EulerAngles angles;
-  /// Of its turn about the body's axes, forward, right and down, where it tells them.
+  /// Rates of turn about the body's axes, forward, right and down, where the sample tells them.
   std::optional<Eigen::Vector3d> rates_in_body_radps = std::nullopt;
 };
 

@@ -136,7 +136,8 @@ void fill_up(const RecordedStream& stream, VehicleTime due, Duration period, con
   }
 }
 
-/// Of its first message, on the vehicle's clock. All messages that tell the state begin alike.
+/// The stamp of the stream's first message, on the vehicle's clock. All messages that tell the state begin
+/// alike.
 VehicleTime first_stamp(const RecordedStream& stream) {
   return boot_time(load_u32(whole_payload(stream.messages.front().frame).data()));
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "geoloc/projection/ground_fix.hpp"
+
+namespace geoloc {
+
+/// The boxes of a frame, the most confident ones.
+struct FrameBoxes {
+  static constexpr std::size_t kMost = 16;
+
+  FrameStamp stamp;
+  std::array<Eigen::Vector2d, kMost> pixels;
+  std::size_t count = 0;
+
+  FrameBoxes() = default;
+  FrameBoxes(FrameStamp frame_stamp, const std::vector<LocatedDetection>& detections,
+             std::size_t most = kMost)
+      : stamp(frame_stamp), count(std::min(detections.size(), most)) {
+    for (std::size_t i = 0; i < count; ++i) pixels[i] = detections[i].detection.box.centre();
+  }
+};
+
+/// How many frames before it the one lies that a frame is to be compared with: long enough to turn, short
+/// enough to show the same. `before(n)`: the frame n before it; there are so many. nullopt: none is suited.
+template <typename Before>
+std::optional<std::size_t> frames_to_compare(const FrameBoxes& frame, std::size_t earlier,
+                                             const Before& before) {
+  constexpr double kLeastApart_s = 0.5, kMostApart_s = 1.2;
+  for (std::size_t n = 1; n <= earlier; ++n) {
+    const double apart_s = seconds(frame.stamp.captured_at_host - before(n).stamp.captured_at_host);
+    if (apart_s > kMostApart_s) return std::nullopt;
+    if (apart_s >= kLeastApart_s) return n;
+  }
+  return std::nullopt;
+}
+
+}  // namespace geoloc
