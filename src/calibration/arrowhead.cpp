@@ -3,8 +3,8 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "geoloc/geometry/angles.hpp"
 
@@ -37,7 +37,10 @@ HeadLayout layout_of(const DriftTimeline& drift) {
 ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift)
     : information_(room_for(drift)),
       right_hand_side_(room_for(drift)),
-      sensitivities_(room_for(drift), kPointSize) {
+      sensitivities_(kPointSize, room_for(drift)),
+      B_(kPointSize, room_for(drift)),
+      gain_(kPointSize, room_for(drift)) {
+  runs_.reserve(Landmark::kMaxNodes + Landmark::kMaxSpells + 1);
   prior_mean_ << prior.boresight_x_deg * kRadPerDeg, prior.boresight_y_deg * kRadPerDeg,
       prior.boresight_z_deg * kRadPerDeg, prior.latency_s, 0.0, 0.0, 0.0;
   prior_sigma_ << prior.sigma_boresight_x_deg * kRadPerDeg, prior.sigma_boresight_y_deg * kRadPerDeg,
@@ -116,51 +119,65 @@ void ArrowheadSolver::add_heights(const HeightLog& heights, const HeadLayout& la
 
 /// Adds C - B' A^-1 B to the lower triangle and g + B' A^-1 b to the right-hand side.
 void ArrowheadSolver::add_landmark(const Landmark& landmark, const HeadLayout& layout) {
-  const PointMatrix A_inverse = landmark.A().inverse();
-  const Point mean = A_inverse * landmark.b();
-  const Eigen::Index last = layout.column_of_calibration();
-  const auto& B = landmark.B();
-  information_.block<kCalibration, kCalibration>(last, last) +=
-      landmark.C() - B.transpose() * (A_inverse * B);
-  right_hand_side_.segment<kCalibration>(last) += landmark.g() + B.transpose() * mean;
-
-  std::array<Landmark::NodeRows, Landmark::kMaxNodes> gains;  // A^-1 B, of the nodes
-  std::size_t count = 0;
-  for (const Landmark::NodeTerms& own : landmark) {
-    const Eigen::Index here = layout.column_of(own.number);
-    const auto& gain = gains[count++] = A_inverse * own.B;
-    right_hand_side_.segment<kNodeSize>(here) += own.g + own.B.transpose() * mean;
-    information_.block<kCalibration, kNodeSize>(last, here) += own.C_calibration - B.transpose() * gain;
-    information_.block<kNodeSize, kNodeSize>(here, here) += own.C_own - own.B.transpose() * gain;
-    const Landmark::NodeTerms* earlier = landmark.begin();
-    for (std::size_t i = 0; earlier != &own; ++i, ++earlier) {
-      auto block = information_.block<kNodeSize, kNodeSize>(here, layout.column_of(earlier->number));
-      block -= own.B.transpose() * gains[i];
-      if (earlier->number + 1 == own.number) block += earlier->C_next.transpose();
-    }
-  }
-  add_spells(landmark, A_inverse, mean, layout);
+  add_own(landmark, layout);
+  spread(landmark, layout);
+  eliminate(landmark.A(), landmark.b());
 }
 
-void ArrowheadSolver::add_spells(const Landmark& landmark, const PointMatrix& A_inverse, const Point& mean,
-                                 const HeadLayout& layout) {
+/// C and g.
+void ArrowheadSolver::add_own(const Landmark& landmark, const HeadLayout& layout) {
   const Eigen::Index last = layout.column_of_calibration();
+  information_.block<kCalibration, kCalibration>(last, last) += landmark.C();
+  right_hand_side_.segment<kCalibration>(last) += landmark.g();
+  for (const Landmark::NodeTerms& own : landmark) {
+    const Eigen::Index here = layout.column_of(own.number);
+    information_.block<kCalibration, kNodeSize>(last, here) += own.C_calibration;
+    information_.block<kNodeSize, kNodeSize>(here, here) += own.C_own;
+    right_hand_side_.segment<kNodeSize>(here) += own.g;
+    const Landmark::NodeTerms* const next = &own + 1;
+    if (next != landmark.end() && next->number == own.number + 1)
+      information_.block<kNodeSize, kNodeSize>(here + kNodeSize, here) += own.C_next.transpose();
+  }
   for (const Landmark::SpellTerms& own : landmark.spells()) {
     const Eigen::Index here = layout.column_of_spell(own.number);
-    const Eigen::Matrix<double, kPointSize, kSwaySize> gain = A_inverse * own.B;
-    right_hand_side_.segment<kSwaySize>(here) += own.g + own.B.transpose() * mean;
-    information_.block<kCalibration, kSwaySize>(last, here) +=
-        own.C_calibration - landmark.B().transpose() * gain;
-    information_.block<kSwaySize, kSwaySize>(here, here) += own.C_own - own.B.transpose() * gain;
-    for (const Landmark::SpellTerms* later = &own + 1; later != landmark.spells().end(); ++later)
-      information_.block<kSwaySize, kSwaySize>(layout.column_of_spell(later->number), here) -=
-          later->B.transpose() * gain;
-    for (const Landmark::NodeTerms& node : landmark)
-      information_.block<kNodeSize, kSwaySize>(layout.column_of(node.number), here) -=
-          node.B.transpose() * gain;
+    information_.block<kCalibration, kSwaySize>(last, here) += own.C_calibration;
+    information_.block<kSwaySize, kSwaySize>(here, here) += own.C_own;
+    right_hand_side_.segment<kSwaySize>(here) += own.g;
     for (std::uint32_t side = 0; side < 2; ++side) {
       if (layout.has_node(own.node + side))
         information_.block<kNodeSize, kSwaySize>(layout.column_of(own.node + side), here) += own.C_node[side];
+    }
+  }
+}
+
+void ArrowheadSolver::spread(const Landmark& landmark, const HeadLayout& layout) {
+  runs_.clear();
+  const auto put = [&](Eigen::Index column, const auto& B) {
+    B_.middleCols<std::decay_t<decltype(B)>::ColsAtCompileTime>(column) = B;
+    if (runs_.empty() || runs_.back().end != column) runs_.push_back({column, column});
+    runs_.back().end += B.cols();
+  };
+  for (const Landmark::SpellTerms& terms : landmark.spells())
+    put(layout.column_of_spell(terms.number), terms.B);
+  for (const Landmark::NodeTerms& terms : landmark) put(layout.column_of(terms.number), terms.B);
+  put(layout.column_of_calibration(), landmark.B());
+}
+
+/// Row by row, so that each is a sum of three rows in the order that they lie in memory.
+void ArrowheadSolver::eliminate(const PointMatrix& A, const Point& b) {
+  const PointMatrix A_inverse = A.inverse();
+  const Point mean = A_inverse * b;
+  for (std::size_t i = 0; i < runs_.size(); ++i) {
+    const Run& rows = runs_[i];
+    const Eigen::Index count = rows.end - rows.begin;
+    gain_.middleCols(rows.begin, count) = A_inverse.lazyProduct(B_.middleCols(rows.begin, count));
+    for (Eigen::Index row = rows.begin; row < rows.end; ++row) {
+      const Point B = B_.col(row);
+      right_hand_side_[row] += B.dot(mean);
+      for (std::size_t k = 0; k <= i; ++k) {
+        const Eigen::Index begin = runs_[k].begin, size = std::min(runs_[k].end, row + 1) - begin;
+        information_.subtract(row, begin, B, gain_, size);
+      }
     }
   }
 }
@@ -208,7 +225,7 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
   if (drift.size() < kEnoughNodes) return std::nullopt;
   double sum = 0.0;
   int count = 0;
-  auto steps = solver_->sensitivities_.topRows(layout_.size());  // the third column stays zero
+  EnvelopeCholesky::Rows& steps = solver_->sensitivities_;  // the third row stays zero
   for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number) {
     const DriftNode& node = drift.node(number);
     if (node.is_after_step()) continue;
@@ -217,10 +234,10 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
     const Eigen::Array2d step =
         node.mean.head<2>().array() - transition * drift.node(number - 1).mean.head<2>().array();
     steps.setZero();
-    steps.block<2, 2>(here, 0).setIdentity();
-    steps.block<2, 2>(before, 0).diagonal() = -transition;
+    steps.block<2, 2>(0, here).setIdentity();
+    steps.block<2, 2>(0, before).diagonal() = -transition;
     solver_->information_.solve_lower(steps, before);
-    const Eigen::Array2d variance = steps.leftCols<2>().colwise().squaredNorm().transpose();
+    const Eigen::Array2d variance = steps.block(0, 0, 2, layout_.size()).rowwise().squaredNorm();
     sum += ((step.square() + variance) * node.information.head<2>().array()).sum();
     count += 2;
   }
@@ -230,33 +247,29 @@ std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftT
 
 void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign) {
   const PointMatrix A_inverse = sign * landmark.A().inverse();
-  sensitivities_.middleRows<kCalibration>(layout.column_of_calibration()) +=
-      landmark.B().transpose() * A_inverse;
-  for (const Landmark::NodeTerms& terms : landmark) {
-    sensitivities_.middleRows<kNodeSize>(layout.column_of(terms.number)) += terms.B.transpose() * A_inverse;
-  }
+  sensitivities_.middleCols<kCalibration>(layout.column_of_calibration()) += A_inverse * landmark.B();
+  for (const Landmark::NodeTerms& terms : landmark)
+    sensitivities_.middleCols<kNodeSize>(layout.column_of(terms.number)) += A_inverse * terms.B;
   for (const Landmark::SpellTerms& terms : landmark.spells())
-    sensitivities_.middleRows<kSwaySize>(layout.column_of_spell(terms.number)) +=
-        terms.B.transpose() * A_inverse;
+    sensitivities_.middleCols<kSwaySize>(layout.column_of_spell(terms.number)) += A_inverse * terms.B;
 }
 
 /// G S^-1 G' of the sensitivities gathered, which are zero before `first`.
 PointMatrix ArrowheadSolver::head_covariance(Eigen::Index first) {
-  auto sensitivities = sensitivities_.topRows(information_.size());
-  information_.solve_lower(sensitivities, first);
-  const auto used = sensitivities.bottomRows(information_.size() - first);
-  return used.transpose().lazyProduct(used);
+  information_.solve_lower(sensitivities_, first);
+  const auto used = sensitivities_.middleCols(first, information_.size() - first);
+  return used.lazyProduct(used.transpose());
 }
 
 PointMatrix ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
-  solver_->sensitivities_.topRows(layout_.size()).setZero();
+  solver_->sensitivities_.leftCols(layout_.size()).setZero();
   solver_->add_sensitivity(landmark, layout_, 1.0);
-  solver_->sensitivities_(layout_.column_of_calibration() + CalibrationIndex::kHeight, 2) -= 1.0;
+  solver_->sensitivities_(2, layout_.column_of_calibration() + CalibrationIndex::kHeight) -= 1.0;
   return landmark.A().inverse() + solver_->head_covariance(first_column(landmark, layout_));
 }
 
 PointMatrix ArrowheadSolver::Solution::covariance_of_difference(const Landmark& a, const Landmark& b) const {
-  solver_->sensitivities_.topRows(layout_.size()).setZero();
+  solver_->sensitivities_.leftCols(layout_.size()).setZero();
   solver_->add_sensitivity(a, layout_, 1.0);
   solver_->add_sensitivity(b, layout_, -1.0);
   return a.A().inverse() + b.A().inverse() +

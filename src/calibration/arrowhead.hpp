@@ -103,16 +103,27 @@ class ArrowheadSolver {
   void add_prior_of_sway(const SwayTimeline& sway, const HeadLayout& layout);
   void add_heights(const HeightLog& heights, const HeadLayout& layout);
   void add_landmark(const Landmark& landmark, const HeadLayout& layout);
-  void add_spells(const Landmark& landmark, const PointMatrix& A_inverse, const Point& mean,
-                  const HeadLayout& layout);
+  void add_own(const Landmark& landmark, const HeadLayout& layout);
+  void spread(const Landmark& landmark, const HeadLayout& layout);
+  void eliminate(const PointMatrix& A, const Point& b);
   void add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign);
   PointMatrix head_covariance(Eigen::Index first);
 
+  /// Columns of the head that follow each other.
+  struct Run {
+    Eigen::Index begin;
+    Eigen::Index end;
+  };
+
   CalibrationVector prior_mean_;
-  CalibrationVector prior_sigma_;            // of all but the height and the offset
-  EnvelopeCholesky information_;             // S, and its factor after solve()
-  Eigen::VectorXd right_hand_side_;          // h, and the head after solve()
-  EnvelopeCholesky::Columns sensitivities_;  // scratch: dx/d(head), transposed
+  CalibrationVector prior_sigma_;         // of all but the height and the offset
+  EnvelopeCholesky information_;          // S, and its factor after solve()
+  Eigen::VectorXd right_hand_side_;       // h, and the head after solve()
+  EnvelopeCholesky::Rows sensitivities_;  // scratch: dx/d(head)
+  // Scratch of add_landmark(): an object's B and A^-1 B in the head's columns, in those that it has only.
+  EnvelopeCholesky::Rows B_;
+  EnvelopeCholesky::Rows gain_;
+  std::vector<Run> runs_;
 };
 
 }  // namespace geoloc

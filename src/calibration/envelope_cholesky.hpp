@@ -12,7 +12,7 @@ namespace geoloc {
 /// only.
 class EnvelopeCholesky {
  public:
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
 
   explicit EnvelopeCholesky(Eigen::Index max_size);
 
@@ -27,14 +27,19 @@ class EnvelopeCholesky {
     return rows_.block<Rows, Columns>(row, column);
   }
 
+  /// Subtracts a sum of three rows from one, in `size` columns from `column` up to the diagonal at most.
+  void subtract(Eigen::Index row, Eigen::Index column, const Eigen::Vector3d& factors, const Rows& rows,
+                Eigen::Index size);
+
   /// S = L L', in place. False where S is not positive definite.
   [[nodiscard]] bool factorize();
 
   /// x = S^-1 x after factorize().
   void solve(Eigen::Ref<Eigen::VectorXd> x) const;
 
-  /// X = L^-1 X after factorize(), for an X whose rows before `first` are zero.
-  void solve_lower(Eigen::Ref<Columns> X, Eigen::Index first) const;
+  /// X' = L^-1 X' after factorize(), for an X whose columns before `first` are zero. Columns that the matrix
+  /// has not are left alone.
+  void solve_lower(Rows& X, Eigen::Index first) const;
 
   /// The last N rows and columns of S^-1 after factorize().
   template <int N>
@@ -47,9 +52,10 @@ class EnvelopeCholesky {
   Eigen::Index size() const { return size_; }
 
  private:
-  auto row(Eigen::Index i, Eigen::Index begin, Eigen::Index end) const {
-    return rows_.row(i).segment(begin, end - begin);
-  }
+  void factorize_three(Eigen::Index i, Eigen::Index j);
+
+  /// Of two rows, from column `begin` to `end`.
+  double dot(Eigen::Index i, Eigen::Index j, Eigen::Index begin, Eigen::Index end) const;
 
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;
   /// Column of the first element of each row that may not be zero.

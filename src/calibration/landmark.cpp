@@ -5,6 +5,19 @@
 #include <algorithm>
 
 namespace geoloc {
+namespace {
+
+/// H' M, with H = [I, -slope].
+template <int Columns>
+Eigen::Matrix<double, kPointSize, Columns> by_point(const Eigen::Matrix<double, 2, Columns>& M,
+                                                    const Eigen::Vector2d& slope) {
+  Eigen::Matrix<double, kPointSize, Columns> product;
+  product.template topRows<2>() = M;
+  product.row(2) = -slope.x() * M.row(0) - slope.y() * M.row(1);
+  return product;
+}
+
+}  // namespace
 
 Landmark::NodeTerms& Landmark::terms_of(std::uint32_t node, const DriftTimeline& drift) {
   if (NodeTerms* const found = nodes_.find(node)) return *found;
@@ -23,25 +36,27 @@ Landmark::SpellTerms& Landmark::terms_of_spell(std::uint32_t spell, std::uint32_
 
 void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& drift) {
   const Eigen::Matrix2d& W = observation.information;
-  const Eigen::Matrix<double, 2, kPointSize> H = observation.point_jacobian();
+  const Eigen::Vector2d& slope = observation.slope;
   const Eigen::Matrix<double, 2, CalibrationIndex::kSize>& Jc = observation.calibration_jacobian;
-  const Eigen::Matrix<double, 2, kSwaySize> Js = observation.sway_jacobian();
   const bool has_spell = observation.span.spell != kNoSpell;
   const bool is_frozen = has_spell && drift.sway().is_frozen(observation.span.spell);
   Eigen::Vector2d value = observation.value;
-  if (is_frozen) value += Js * drift.sway().spell(observation.span.spell).mean;
+  if (is_frozen) value += observation.sway_jacobian() * drift.sway().spell(observation.span.spell).mean;
   const Eigen::Vector2d Wy = W * value;
   const Eigen::Matrix<double, 2, CalibrationIndex::kSize> WJc = W * Jc;
-  A_ += H.transpose() * W * H;
-  b_ += H.transpose() * Wy;
-  B_ += H.transpose() * WJc;
-  C_ += Jc.transpose() * WJc;
-  g_ -= Jc.transpose() * Wy;
+  const CalibrationMatrix JcWJc = Jc.transpose() * WJc;
+  const CalibrationVector JcWy = Jc.transpose() * Wy;
+  const Eigen::Matrix<double, 2, kPointSize> WH = W * observation.point_jacobian();
+  A_ += by_point(WH, slope);
+  b_ += by_point(Wy, slope);
+  B_ += by_point(WJc, slope);
+  C_ += JcWJc;
+  g_ -= JcWy;
 
   const double second = observation.span.weight_of_second, first = 1.0 - second;
   const Eigen::Matrix<double, 2, kNodeSize>& Jd = observation.node_jacobian;
   const Eigen::Matrix<double, 2, kNodeSize> WJd = W * Jd;
-  const NodeRows HWJd = H.transpose() * WJd;
+  const NodeRows HWJd = by_point(WJd, slope);
   const Eigen::Matrix<double, CalibrationIndex::kSize, kNodeSize> JcWJd = Jc.transpose() * WJd;
   const NodeMatrix JdWJd = Jd.transpose() * WJd;
   const NodeVector JdWy = Jd.transpose() * Wy;
@@ -59,14 +74,24 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   if (!has_spell || is_frozen) return;
 
   SpellTerms& terms = terms_of_spell(observation.span.spell, observation.span.first, drift);
-  const Eigen::Matrix<double, 2, kSwaySize> WJs = W * Js;
-  const SpellTerms::NodeBlock JdWJs = Jd.transpose() * WJs;
-  terms.B += H.transpose() * WJs;
-  terms.C_calibration += Jc.transpose() * WJs;
+  // Js = [I, the first two columns of Jc].
+  static_assert(CalibrationIndex::kBoresight == 0 && kSwaySize == 4);
+  Eigen::Matrix<double, 2, kSwaySize> WJs;
+  WJs.leftCols<2>() = W;
+  WJs.rightCols<2>() = WJc.leftCols<2>();
+  terms.B += by_point(WJs, slope);
+  terms.C_calibration.leftCols<2>() += WJc.transpose();
+  terms.C_calibration.rightCols<2>() += JcWJc.leftCols<2>();
+  SpellTerms::NodeBlock JdWJs;
+  JdWJs.leftCols<2>() = WJd.transpose();
+  JdWJs.rightCols<2>() = JcWJd.topRows<2>().transpose();
   terms.C_node[0] += first * JdWJs;
   terms.C_node[1] += second * JdWJs;
-  terms.C_own += Js.transpose() * WJs;
-  terms.g -= Js.transpose() * Wy;
+  terms.C_own.topRows<2>() += WJs;
+  terms.C_own.bottomLeftCorner<2, 2>() += WJc.leftCols<2>().transpose();
+  terms.C_own.bottomRightCorner<2, 2>() += JcWJc.topLeftCorner<2, 2>();
+  terms.g.head<2>() -= Wy;
+  terms.g.tail<2>() -= JcWy.head<2>();
 }
 
 void Landmark::add_prior(const PointInformation& prior) {
@@ -185,11 +210,11 @@ void Landmark::drop_oldest(const NodeVector& value) {
   nodes_.erase(nodes_.begin());
 }
 
-Point Landmark::position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
+Point Landmark::weighted_position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
   Point sum = b_ + B_ * calibration;
   for (const NodeTerms& terms : *this) sum += terms.B * drift.node(terms.number).mean;
   for (const SpellTerms& terms : spells_) sum += terms.B * drift.sway().spell(terms.number).mean;
-  return A_.inverse() * sum;
+  return sum;
 }
 
 }  // namespace geoloc

@@ -49,10 +49,15 @@ struct LandmarkObservation {
     return jacobian;
   }
 
-  /// H.
-  Eigen::Matrix<double, 2, kPointSize> point_jacobian() const { return point_jacobian_of(slope); }
+  /// What it adds to an object's A x (Landmark::weighted_position).
+  Point weighted_position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
+    Eigen::Vector2d seen = value + calibration_jacobian * calibration + node_jacobian * drift.at(span);
+    if (span.spell != kNoSpell) seen += sway_jacobian() * drift.sway().spell(span.spell).mean;
+    return point_jacobian().transpose() * (information * seen);
+  }
 
-  static Eigen::Matrix<double, 2, kPointSize> point_jacobian_of(const Eigen::Vector2d& slope) {
+  /// H.
+  Eigen::Matrix<double, 2, kPointSize> point_jacobian() const {
     Eigen::Matrix<double, 2, kPointSize> jacobian;
     jacobian << Eigen::Matrix2d::Identity(), -slope;
     return jacobian;
@@ -118,8 +123,8 @@ class Landmark {
   /// Takes the latency of all looks so far as known: those to come are of another.
   void freeze_latency(double latency_s);
 
-  /// x = A^-1 (b + B c + sum of B d over the nodes and the spells).
-  Point position(const CalibrationVector& calibration, const DriftTimeline& drift) const;
+  /// A x = b + B c + sum of B d over the nodes and the spells.
+  Point weighted_position(const CalibrationVector& calibration, const DriftTimeline& drift) const;
 
   const PointMatrix& A() const { return A_; }
   const Point& b() const { return b_; }

@@ -19,8 +19,12 @@ class NumberedTerms {
   bool is_empty() const { return count_ == 0; }
   bool is_full() const { return count_ == kMost; }
 
-  /// nullptr: there is none of that number.
+  /// nullptr: there is none of that number. It is looked for among the last ones first, where those are that
+  /// are in use.
   Terms* find(std::uint32_t number) {
+    for (Terms* last = end(); last != begin() && end() - last < 2;) {
+      if ((--last)->number == number) return last;
+    }
     Terms* const place = place_of(number);
     return place != end() && place->number == number ? place : nullptr;
   }

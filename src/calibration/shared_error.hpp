@@ -24,4 +24,16 @@ struct SharedError {
   using PointRow = Eigen::Matrix<double, 3, kSize>;
 };
 
+/// J J', column by column: two at a time in a register.
+inline Eigen::Matrix2d squared(const SharedError::Row& J) {
+  Eigen::Vector2d first = Eigen::Vector2d::Zero(), second = Eigen::Vector2d::Zero();
+  for (int i = 0; i < SharedError::kSize; ++i) {
+    first += J(0, i) * J.col(i);
+    second += J(1, i) * J.col(i);
+  }
+  Eigen::Matrix2d square;
+  square << first, second;
+  return square;
+}
+
 }  // namespace geoloc

@@ -37,6 +37,17 @@ Distorted distort(const Eigen::Vector2d& undistorted, const Coefficients& coeffi
   return result;
 }
 
+bool is_invertible(const Eigen::Matrix2d& jacobian) {
+  return std::abs(jacobian.determinant()) > 1e-9;
+}
+
+/// Of a ray whose Jacobian is by the distorted coordinates.
+ImageRay by_pixel(ImageRay ray, const CameraIntrinsics& intrinsics) {
+  ray.normalized_from_pixel.col(0) /= intrinsics.fx_px;
+  ray.normalized_from_pixel.col(1) /= intrinsics.fy_px;
+  return ray;
+}
+
 /// Newton from the distorted point; nullopt where it does not settle or leaves the invertible disc. The
 /// Jacobian is that of undistorted by distorted coordinates.
 std::optional<ImageRay> undistort(const Eigen::Vector2d& distorted, const Coefficients& coefficients,
@@ -51,7 +62,7 @@ std::optional<ImageRay> undistort(const Eigen::Vector2d& distorted, const Coeffi
       if (!(estimate.squaredNorm() <= max_radius_squared)) return std::nullopt;
       return ImageRay{estimate, there.jacobian.inverse()};
     }
-    if (!(std::abs(there.jacobian.determinant()) > 1e-9)) return std::nullopt;
+    if (!is_invertible(there.jacobian)) return std::nullopt;
     estimate += there.jacobian.inverse() * residual;
   }
   return std::nullopt;
@@ -121,18 +132,31 @@ std::optional<ImageRay> CameraModel::ray(const Eigen::Vector2d& pixel) const {
   if (!pixel.allFinite()) return std::nullopt;
   const Eigen::Vector2d distorted{(pixel.x() - intrinsics_.cx_px) / intrinsics_.fx_px,
                                   (pixel.y() - intrinsics_.cy_px) / intrinsics_.fy_px};
-  auto ray = undistort(distorted, intrinsics_.distortion, max_radius_squared_);
-  if (!ray) return std::nullopt;
-  ray->normalized_from_pixel.col(0) /= intrinsics_.fx_px;
-  ray->normalized_from_pixel.col(1) /= intrinsics_.fy_px;
-  return ray;
+  const auto undistorted = undistort(distorted, intrinsics_.distortion, max_radius_squared_);
+  if (!undistorted) return std::nullopt;
+  return by_pixel(*undistorted, intrinsics_);
 }
 
-std::optional<Eigen::Vector2d> CameraModel::pixel(const Eigen::Vector3d& point_in_camera) const {
+std::optional<ImageRay> CameraModel::ray_to(const Eigen::Vector3d& point_in_camera) const {
+  const auto there = normalized(point_in_camera);
+  if (!there) return std::nullopt;
+  const Eigen::Matrix2d jacobian = distort(*there, intrinsics_.distortion).jacobian;
+  if (!is_invertible(jacobian)) return std::nullopt;
+  return by_pixel({*there, jacobian.inverse()}, intrinsics_);
+}
+
+/// Undistorted, at unit depth.
+std::optional<Eigen::Vector2d> CameraModel::normalized(const Eigen::Vector3d& point_in_camera) const {
   if (!(point_in_camera.z() > 1e-6) || !point_in_camera.allFinite()) return std::nullopt;
   const Eigen::Vector2d normalized = point_in_camera.hnormalized();
   if (!(normalized.squaredNorm() <= max_radius_squared_)) return std::nullopt;
-  const Eigen::Vector2d distorted = distort(normalized, intrinsics_.distortion).point;
+  return normalized;
+}
+
+std::optional<Eigen::Vector2d> CameraModel::pixel(const Eigen::Vector3d& point_in_camera) const {
+  const auto there = normalized(point_in_camera);
+  if (!there) return std::nullopt;
+  const Eigen::Vector2d distorted = distort(*there, intrinsics_.distortion).point;
   return Eigen::Vector2d{intrinsics_.fx_px * distorted.x() + intrinsics_.cx_px,
                          intrinsics_.fy_px * distorted.y() + intrinsics_.cy_px};
 }

@@ -67,11 +67,7 @@ Expected<Projector::PixelRay, NoFix> Projector::ray_of(const Eigen::Vector2d& pi
                   image_ray->normalized_from_pixel};
 }
 
-Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel,
-                                              const Rigid3d& enu_from_camera) const {
-  const auto found = ray_of(pixel, enu_from_camera);
-  if (!found) return found.error();
-  const Ray<double>& ray = found->ray;
+Expected<double, NoFix> Projector::range_of_plane(const Ray<double>& ray) const {
   const Plane<double> ground{Eigen::Vector3d::UnitZ(), config_.ground_height_above_home_m};
   if (!(ray.origin.z() - ground.offset_m > 0.0)) return NoFix::kBelowGround;
   if (!(ray.direction.z() < 0.0)) return NoFix::kAboveHorizon;
@@ -79,7 +75,30 @@ Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel,
   const auto range_m = intersect(ray, ground);
   if (!range_m) return NoFix::kAboveHorizon;
   if (!(*range_m <= config_.max_range_m)) return NoFix::kTooFar;
+  return *range_m;
+}
+
+Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel,
+                                              const Rigid3d& enu_from_camera) const {
+  const auto found = ray_of(pixel, enu_from_camera);
+  if (!found) return found.error();
+  const auto range_m = range_of_plane(found->ray);
+  if (!range_m) return range_m.error();
   return found->meeting(*range_m, Eigen::Vector2d::Zero());
+}
+
+Expected<GroundFix, NoFix> Projector::fix_of_point(const Eigen::Vector3d& point_in_enu,
+                                                   const Rigid3d& enu_from_camera) const {
+  const Eigen::Matrix3d rotation = enu_from_camera.rotation.toRotationMatrix();
+  const Eigen::Vector3d to_point = point_in_enu - enu_from_camera.translation;
+  const auto image_ray = camera_.ray_to(rotation.transpose() * to_point);
+  if (!image_ray) return NoFix::kNoRay;
+  const double range_m = to_point.norm();
+  const Ray<double> ray{enu_from_camera.translation, to_point / range_m};
+  if (const auto seen = range_of_plane(ray); !seen) return seen.error();
+  const PixelRay pixel_ray{ray, rotation, rotation * image_ray->normalized.homogeneous(),
+                           image_ray->normalized_from_pixel};
+  return pixel_ray.meeting(range_m, Eigen::Vector2d::Zero());
 }
 
 Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera,
@@ -124,7 +143,9 @@ bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_
 bool Projector::sees_point(const Eigen::Vector3d& position_in_enu, const Rigid3d& enu_from_camera,
                            double margin_px) const {
   const auto pixel = reproject(position_in_enu, enu_from_camera);
-  return pixel && camera_.contains(*pixel, margin_px) && project(*pixel, enu_from_camera).has_value();
+  if (!pixel || !camera_.contains(*pixel, margin_px)) return false;
+  const Eigen::Vector3d to_point = position_in_enu - enu_from_camera.translation;
+  return range_of_plane({enu_from_camera.translation, to_point.normalized()}).has_value();
 }
 
 bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_from_camera, double margin_px,

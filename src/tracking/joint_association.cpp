@@ -33,7 +33,7 @@ Eigen::Matrix2d residual_covariance(const Pairing& pairing, const SharedError::M
 
 /// The same before anything is known of the shared error.
 Eigen::Matrix2d prior_covariance(const Pairing& pairing) {
-  return pairing.own_covariance + pairing.jacobian.lazyProduct(pairing.jacobian.transpose());
+  return pairing.own_covariance + squared(pairing.jacobian);
 }
 
 }  // namespace

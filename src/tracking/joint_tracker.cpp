@@ -50,12 +50,21 @@ void follow_ground(const GroundModel& ground, TrackTable& tracks) {
     set_ground(track, ground_prior(ground, track.position_in_enu.head<2>(), 0.0));
 }
 
-void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
-  for (RestingObject& track : tracks) {
-    const PointMatrix covariance = solution.covariance(*track.landmark);
-    track.track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
-    track.sigma_height_m = std::sqrt(covariance(2, 2));
-  }
+/// An object's covariance costs as much as its part in the solution: it is computed anew where the looks at
+/// the object have grown by so much, and for the rest in turns of so many solutions.
+constexpr double kGrowthOfLooks = 1.1;
+constexpr std::uint64_t kTurnsOfCovariance = 4;
+
+bool is_covariance_due(const RestingObject& object, std::uint64_t solution) {
+  return object.track.hits >= kGrowthOfLooks * object.hits_at_covariance ||
+         (object.track.id + solution) % kTurnsOfCovariance == 0;
+}
+
+void update_covariance(const ArrowheadSolver::Solution& solution, RestingObject& object) {
+  const PointMatrix covariance = solution.covariance(*object.landmark);
+  object.track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
+  object.sigma_height_m = std::sqrt(covariance(2, 2));
+  object.hits_at_covariance = object.track.hits;
 }
 
 /// What an object's position is off by besides what all of them are, per axis: half of what it differs from
@@ -417,9 +426,13 @@ void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, 
   if (!solution) return;
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
-  update_covariances(*solution, tracks_);
+  for (RestingObject& track : tracks_) {
+    if (is_covariance_due(track, schedule_.number())) update_covariance(*solution, track);
+  }
   if (!match_known_points(*solution, noise)) return;
-  if (const auto with_known_points = solve(located, frame)) update_covariances(*with_known_points, tracks_);
+  const auto with_known_points = solve(located, frame);
+  if (!with_known_points) return;
+  for (RestingObject& track : tracks_) update_covariance(*with_known_points, track);
 }
 
 std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame& located,
@@ -429,15 +442,16 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
     opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
   errors_.believe_in_sway(fast_position_variance_m2(config_, errors_), frame.repetition.lasts());
   const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_);
-  if (!solution) return std::nullopt;
-  errors_.take(*solution);
-  bound_height(frame.projector, frame.view);
+  if (solution) {
+    errors_.take(*solution);
+    bound_height(frame.projector, frame.view);
+  }
   for (RestingObject& track : tracks_) refresh(track, errors_, frame.span);
   return solution;
 }
 
 void JointTracker::learn_wandering(const Solution& solution) {
-  if (!schedule_.next_solution_teaches_wandering()) return;
+  if (!schedule_.teaches_wandering()) return;
   const auto wandering = solution.observed_wandering(errors_.drift);
   if (wandering) errors_.drift.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
 }

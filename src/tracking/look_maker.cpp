@@ -143,25 +143,19 @@ LandmarkObservation LookMaker::linearised_at(const Point& position_in_enu, const
                                              double looks_that_share, const JointFrame& frame,
                                              const SharedErrorEstimate& errors) const {
   const FrameShift shift = shift_by(errors.calibration, frame.drift, frame.ground_height_m);
-  const Rigid3d& enu_from_camera = frame.view.enu_from_camera;
   const Eigen::Vector3d shown_in_enu = shift.shown(Eigen::Vector3d(position_in_enu));
-  const auto pixel = frame.projector.reproject(shown_in_enu, enu_from_camera);
-  if (!pixel) return look.observation;
-  const auto on_plane = frame.projector.project(*pixel, enu_from_camera);
-  if (!on_plane) return look.observation;
-  const double below_camera_m = enu_from_camera.translation.z() - shown_in_enu.z();
-  const double k = (enu_from_camera.translation.z() - frame.projector.config().ground_height_above_home_m) /
-                   below_camera_m;
-  GroundFix there = *on_plane;
-  there.position_in_enu = shown_in_enu.head<2>();
-  there.ground_from_pixel /= k;
-  there.range_m /= k;
-  const FixJacobians jacobians = jacobians_of(there, frame.view, below_camera_m);
+  const auto there = frame.projector.fix_of_point(shown_in_enu, frame.view.enu_from_camera);
+  if (!there) return look.observation;
+  const Eigen::Vector3d& camera_in_enu = frame.view.enu_from_camera.translation;
+  const double below_camera_m = camera_in_enu.z() - shown_in_enu.z();
+  const double k = (camera_in_enu.z() - frame.projector.config().ground_height_above_home_m) / below_camera_m;
+  const FixJacobians jacobians = jacobians_of(*there, frame.view, below_camera_m);
   LandmarkObservation expected =
-      observation(there, jacobians, noise_of(look.detection, there, jacobians, frame, errors),
+      observation(*there, jacobians, noise_of(look.detection, *there, jacobians, frame, errors),
                   looks_that_share, frame, errors);
-  const Eigen::Vector2d beside = look.fix.position_in_enu - on_plane->position_in_enu;
-  expected.value += on_plane->position_in_enu - there.position_in_enu + beside / k;
+  const Eigen::Vector2d from_camera = there->position_in_enu - camera_in_enu.head<2>();
+  const Eigen::Vector2d on_plane = camera_in_enu.head<2>() + k * from_camera;
+  expected.value += on_plane - there->position_in_enu + (look.fix.position_in_enu - on_plane) / k;
   return expected;
 }
 

@@ -45,6 +45,13 @@ SharedError::Row mean_jacobian(const std::vector<Look>& looks, const HeightRow& 
   return mean;
 }
 
+/// H M, with H the Jacobian of a look by the object (LandmarkObservation): what is up moves along the ray.
+template <int Columns>
+Eigen::Matrix<double, 2, Columns> along_ray(const Eigen::Matrix<double, kPointSize, Columns>& M,
+                                            const Eigen::Vector2d& slope) {
+  return M.template topRows<2>() - slope * M.row(2);
+}
+
 bool is_older(const RestingObject& object, const RestingObject& other) {
   const Track &a = object.track, &b = other.track;
   return std::make_tuple(a.status == TrackStatus::kConfirmed, a.hits, b.id) >
@@ -112,10 +119,12 @@ void LookMatcher::consider_shake(const std::vector<Look>& looks, const FrameNois
 }
 
 /// The looks of a frame share the camera's place: where it shows a track, and along what slope, any of them
-/// tells.
-void LookMatcher::list_reaches(const Look& any_look, const TrackTable& tracks,
-                               const SharedError::Row& mean_of_looks, const HeightRow& mean_of_heights) {
+/// tells. Returns what no track exceeds.
+LookMatcher::Reach LookMatcher::list_reaches(const Look& any_look, const TrackTable& tracks,
+                                             const SharedError::Row& mean_of_looks,
+                                             const HeightRow& mean_of_heights) {
   reach_of_track_.clear();
+  Reach most{Eigen::Vector2d::Zero(), 0.0, 0.0};
   for (const RestingObject& track : tracks) {
     const Eigen::Vector2d shown = any_look.shown(track.position_in_enu);
     const double slope = any_look.slope_at(shown).norm();
@@ -124,7 +133,10 @@ void LookMatcher::list_reaches(const Look& any_look, const TrackTable& tracks,
     const double shared_m = (track.sensitivity.topRows<2>() - mean_of_looks).norm() +
                             slope * (track.sensitivity.row(2) - mean_of_heights).norm();
     reach_of_track_.push_back({shown, own_m * own_m, shared_m});
+    most.own_variance = std::max(most.own_variance, own_m * own_m);
+    most.shared_m = std::max(most.shared_m, shared_m);
   }
+  return most;
 }
 
 /// All tracks that a look may show; those that are farther than the trace of the covariance allows are not
@@ -135,7 +147,7 @@ void LookMatcher::add_pairings(const std::vector<Look>& looks, const FrameNoise&
   if (looks.empty()) return;
   const HeightRow mean_of_heights = mean_height_sensitivity(tracks);
   const SharedError::Row mean_of_looks = mean_jacobian(looks, mean_of_heights);
-  list_reaches(looks.front(), tracks, mean_of_looks, mean_of_heights);
+  const Reach most = list_reaches(looks.front(), tracks, mean_of_looks, mean_of_heights);
   const double frame_variance = (1.0 + shake * shake) * noise.covariance.trace();
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const Look& look = looks[i];
@@ -143,12 +155,16 @@ void LookMatcher::add_pairings(const std::vector<Look>& looks, const FrameNoise&
     const double variance_of_look = look.pixel_noise.trace() + frame_variance;
     const double by_distance = mean_of_heights.norm() / look.camera_height_m;
     const double share = 1.0 - 2.0 * config_.gate * by_distance * by_distance;
+    const auto reach_m2 = [&](const Reach& track) {
+      const double shared_m = shared_by_look_m + track.shared_m;
+      return kReachMargin * config_.gate *
+             (variance_of_look + track.own_variance + 2.0 * shared_m * shared_m);
+    };
+    const double most_m2 = reach_m2(most);
     for (std::size_t k = 0; k < tracks.size(); ++k) {
       const Reach& track = reach_of_track_[k];
-      const double shared_m = shared_by_look_m + track.shared_m;
-      const double variance = variance_of_look + track.own_variance + 2.0 * shared_m * shared_m;
-      const double squared_distance = (look.position - track.shown).squaredNorm();
-      if (!(share * squared_distance < kReachMargin * config_.gate * variance)) continue;
+      const double distance_m2 = share * (look.position - track.shown).squaredNorm();
+      if (!(distance_m2 < most_m2 && distance_m2 < reach_m2(track))) continue;
       Pairing pair = pairing(look, tracks[k], noise, shake);
       pair.look = i;
       pair.track = k;
@@ -163,12 +179,13 @@ Pairing LookMatcher::pairing(const Look& look, const RestingObject& track, const
   const double share = noise.share_in_track(track.track.hits);
   Pairing pairing;
   const Eigen::Vector2d shown = look.shown(track.position_in_enu);
-  const Eigen::Matrix<double, 2, kPointSize> H = LandmarkObservation::point_jacobian_of(look.slope_at(shown));
+  const Eigen::Vector2d slope = look.slope_at(shown);
   pairing.residual = look.position - shown;
-  pairing.jacobian = look.jacobian - H * track.sensitivity;
+  pairing.jacobian = look.jacobian - along_ray(track.sensitivity, slope);
   pairing.jacobian.middleCols<2>(SharedError::kFrame) *= shake;
-  pairing.own_covariance =
-      look.pixel_noise + H * track.pixel_covariance * H.transpose() + share * noise.covariance;
+  const Eigen::Matrix<double, kPointSize, 2> covariance =
+      along_ray(track.pixel_covariance, slope).transpose();
+  pairing.own_covariance = look.pixel_noise + along_ray(covariance, slope) + share * noise.covariance;
   pairing.penalty = look.detection.class_id == track.track.class_id() ? 0.0 : config_.class_mismatch_cost;
   return pairing;
 }

@@ -56,8 +56,8 @@ class LookMatcher {
   int looks_alone() const;
   void add_pairings(const std::vector<Look>& looks, const FrameNoise& noise, double shake,
                     const TrackTable& tracks);
-  void list_reaches(const Look& any_look, const TrackTable& tracks, const SharedError::Row& mean_of_looks,
-                    const HeightRow& mean_of_heights);
+  Reach list_reaches(const Look& any_look, const TrackTable& tracks, const SharedError::Row& mean_of_looks,
+                     const HeightRow& mean_of_heights);
   Pairing pairing(const Look& look, const RestingObject& track, const FrameNoise& noise, double shake) const;
   void prefer_older_twins(const TrackTable& tracks);
   const Pairing* oldest_twin(std::size_t look, const TrackTable& tracks) const;

@@ -7,11 +7,13 @@
 namespace geoloc {
 namespace {
 
-/// The part of an object's sums that comes from the drift nodes of this moment.
+/// The part of an object's sums that comes from the drift nodes of this moment: the last ones.
 Landmark::NodeRows recent_drift(const Landmark& landmark, const NodeSpan& now) {
   Landmark::NodeRows sum = Landmark::NodeRows::Zero();
-  for (const Landmark::NodeTerms& terms : landmark) {
-    if (terms.number >= now.first) sum += terms.B;
+  for (const Landmark::NodeTerms* terms = landmark.end(); terms != landmark.begin();) {
+    --terms;
+    if (terms->number < now.first) break;
+    sum += terms->B;
   }
   return sum;
 }
@@ -22,23 +24,30 @@ PointMatrix pixel_information_of(const LandmarkObservation& observation, const E
   return H.transpose() * pixel_noise.inverse() * H;
 }
 
-}  // namespace
-
-void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now) {
+/// Position and its derivatives from A x.
+void settle(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now) {
   const Landmark& landmark = *object.landmark;
   object.own_covariance = landmark.A().inverse();
   object.pixel_covariance = object.pixel_information.inverse();
   object.sensitivity = errors.whitened<kPointSize>(
       object.own_covariance * landmark.B().leftCols<SharedError::kCalibrationSize>(),
       object.own_covariance * recent_drift(landmark, now));
-  object.position_in_enu = landmark.position(errors.calibration.mean, errors.drift);
+  object.position_in_enu = object.own_covariance * object.weighted_position;
   object.track.position_in_enu.mean = object.position_in_enu.head<2>();
+}
+
+}  // namespace
+
+void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now) {
+  object.weighted_position = object.landmark->weighted_position(errors.calibration.mean, errors.drift);
+  settle(object, errors, now);
 }
 
 void clear_sums(RestingObject& object) {
   *object.landmark = Landmark{};
   object.landmark->add_prior(object.prior);
   object.pixel_information = object.prior.matrix;
+  object.weighted_position = object.prior.vector;
 }
 
 void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift) {
@@ -56,7 +65,8 @@ void take_out_look(RestingObject& object, const LandmarkObservation& observation
 
 void add_to_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors) {
   add_look(object, look, errors.drift);
-  refresh(object, errors, look.observation.span);
+  object.weighted_position += look.observation.weighted_position(errors.calibration.mean, errors.drift);
+  settle(object, errors, look.observation.span);
 }
 
 void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors) {
@@ -84,6 +94,7 @@ void add_prior(RestingObject& object, const PointInformation& prior) {
   object.prior += prior;
   object.landmark->add_prior(prior);
   object.pixel_information += prior.matrix;
+  object.weighted_position += prior.vector;
 }
 
 void merge_sums(RestingObject& kept, const RestingObject& gone, const DriftTimeline& drift) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "geoloc/geometry/time.hpp"
 
@@ -20,36 +21,37 @@ class SolutionSchedule {
   void request_for_some_frames() { eager_until_ = std::max(eager_until_, frames_ + kFramesAfterChange); }
 
   bool is_due(VehicleTime now) const {
-    return is_requested_ || frames_ <= eager_until_ || !has_solution_ || now < solved_at_ ||
+    return is_requested_ || frames_ <= eager_until_ || solutions_ == 0 || now < solved_at_ ||
            seconds(now - solved_at_) >= period_s_;
   }
 
   void begin_solution(VehicleTime now) {
-    has_solution_ = true;
+    ++solutions_;
     solved_at_ = now;
     is_requested_ = false;
   }
 
-  /// Whether the wandering is to be learnt with the solution just found: with each until it has settled, then
-  /// now and then, since it costs as much as a solution.
-  bool next_solution_teaches_wandering() {
-    const int pause = solutions_ < kSolutionsToSettle ? 1 : kSolutionsPerLessonLater;
-    return ++solutions_ % pause == 0;
+  /// The present one, from 1 on.
+  std::uint64_t number() const { return solutions_; }
+
+  /// Whether the wandering is to be learnt with the present one: with each until it has settled, then now and
+  /// then, since it costs as much as a solution.
+  bool teaches_wandering() const {
+    return solutions_ <= kSolutionsToSettle || solutions_ % kSolutionsPerLessonLater == 0;
   }
 
  private:
   static constexpr int kEagerFrames = 100;
   static constexpr int kFramesAfterChange = 20;
-  static constexpr int kSolutionsToSettle = 150;
-  static constexpr int kSolutionsPerLessonLater = 5;
+  static constexpr std::uint64_t kSolutionsToSettle = 150;
+  static constexpr std::uint64_t kSolutionsPerLessonLater = 5;
 
   double period_s_;
-  bool has_solution_ = false;
   VehicleTime solved_at_{};
   bool is_requested_ = false;
   int frames_ = 0;
   int eager_until_ = kEagerFrames;
-  int solutions_ = 0;
+  std::uint64_t solutions_ = 0;
 };
 
 }  // namespace geoloc

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "geoloc/geometry/angles.hpp"
+#include "support/landmark_position.hpp"
 
 namespace geoloc {
 namespace {
@@ -252,7 +253,7 @@ class ArrowheadProblem : public ::testing::Test {
   void expect_objects_of(const ArrowheadSolver::Solution& solution, const Dense& expected) const {
     for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(landmarks_.size()); ++i) {
       const Landmark& landmark = landmarks_[static_cast<std::size_t>(i)];
-      EXPECT_LT((landmark.position(calibration_.mean, drift_) - expected.position(i)).norm(), 1e-8);
+      EXPECT_LT((position_of(landmark, calibration_.mean, drift_) - expected.position(i)).norm(), 1e-8);
       EXPECT_LT((solution.covariance(landmark) - expected.covariance_of(expected.above_home(i))).norm(),
                 1e-8);
       for (Eigen::Index j = 0; j < i; ++j) {
@@ -365,7 +366,7 @@ TEST_F(ArrowheadProblem, MergingSumsIsHavingSeenOneObject) {
   const ArrowheadSolver::Solution solution = solve();
   const Dense expected = dense({0, 1, 2, 1});
   EXPECT_LT((calibration_.mean - expected.calibration_mean()).norm(), 1e-8);
-  EXPECT_LT((landmarks_[1].position(calibration_.mean, drift_) - expected.position(1)).norm(), 1e-8);
+  EXPECT_LT((position_of(landmarks_[1], calibration_.mean, drift_) - expected.position(1)).norm(), 1e-8);
   EXPECT_LT((solution.covariance(landmarks_[1]) - expected.covariance_of(expected.above_home(1))).norm(),
             1e-8);
 }
@@ -404,12 +405,12 @@ TEST_F(ArrowheadProblem, FreezingANodeAtItsEstimateChangesNoEstimate) {
   make(4, 160, 40.0);
   solve();
   const CalibrationVector before = calibration_.mean;
-  const Point position = landmarks_[2].position(calibration_.mean, drift_);
+  const Point position = position_of(landmarks_[2], calibration_.mean, drift_);
   for (Landmark& landmark : landmarks_) landmark.freeze(drift_.begin(), drift_);
   drift_.freeze_oldest();
   solve();
   EXPECT_LT((calibration_.mean - before).norm(), 1e-8);
-  EXPECT_LT((landmarks_[2].position(calibration_.mean, drift_) - position).norm(), 1e-8);
+  EXPECT_LT((position_of(landmarks_[2], calibration_.mean, drift_) - position).norm(), 1e-8);
 }
 
 /// Spells one by one, then nodes that spells are tied to; and what is learnt then is what it was.
@@ -422,7 +423,7 @@ TEST_F(ArrowheadProblem, FreezingASpellAtItsEstimateChangesNoEstimate) {
     make(4, 160, duration_s);
     solve();
     const CalibrationVector before = calibration_.mean;
-    const Point position = landmarks_[2].position(calibration_.mean, drift_);
+    const Point position = position_of(landmarks_[2], calibration_.mean, drift_);
     const NodeVector newest = drift_.node(drift_.end() - 1).mean;
     const SwayVector sway = drift_.sway().spell(drift_.sway().end() - 1).mean;
     while (drift_.sway().size() > 1) {
@@ -433,7 +434,7 @@ TEST_F(ArrowheadProblem, FreezingASpellAtItsEstimateChangesNoEstimate) {
       }
       solve();
       EXPECT_LT((calibration_.mean - before).norm(), 1e-8);
-      EXPECT_LT((landmarks_[2].position(calibration_.mean, drift_) - position).norm(), 1e-8);
+      EXPECT_LT((position_of(landmarks_[2], calibration_.mean, drift_) - position).norm(), 1e-8);
       EXPECT_LT((drift_.node(drift_.end() - 1).mean - newest).norm(), 1e-8);
       EXPECT_LT((drift_.sway().spell(drift_.sway().end() - 1).mean - sway).norm(), 1e-8);
     }
@@ -562,7 +563,7 @@ TEST_F(ArrowheadProblem, AnObjectKnownFromASurveyAloneHasThatCovariance) {
   const double height_of_home = std::pow(calibration_.sigma(CalibrationIndex::kHeight), 2);
   const PointMatrix above_home = Point(0.0, 0.0, height_of_home).asDiagonal().toDenseMatrix() + covariance;
   EXPECT_LT((solution.covariance(surveyed) - above_home).norm(), 1e-12);
-  EXPECT_LT((surveyed.position(calibration_.mean, drift_) - position).norm(), 1e-12);
+  EXPECT_LT((position_of(surveyed, calibration_.mean, drift_) - position).norm(), 1e-12);
   const Dense expected = dense({0, 1});
   const Eigen::MatrixXd first = expected.above_home(0);
   Eigen::MatrixXd level = first;

@@ -14,7 +14,7 @@ namespace geoloc {
 namespace {
 
 constexpr int kBlock = 3;
-constexpr int kColumns = EnvelopeCholesky::Columns::ColsAtCompileTime;
+constexpr int kRows = EnvelopeCholesky::Rows::RowsAtCompileTime;
 
 /// Positive definite, made of blocks of which most are zero, and the same as it is built up in `sparse`.
 Eigen::MatrixXd random_matrix(int blocks, std::mt19937& random, EnvelopeCholesky& sparse) {
@@ -55,11 +55,14 @@ TEST(EnvelopeCholesky, SolvesAsADenseFactorDoes) {
     EXPECT_LT((x - expected).norm(), 1e-9 * (1.0 + expected.norm()));
 
     const Eigen::Index first = matrix.rows() / 2;
-    EnvelopeCholesky::Columns columns = EnvelopeCholesky::Columns::Zero(matrix.rows(), kColumns);
-    columns.bottomRows(matrix.rows() - first).setRandom();
-    const Eigen::MatrixXd expected_columns = dense.matrixL().solve(Eigen::MatrixXd(columns));
-    sparse.solve_lower(columns, first);
-    EXPECT_LT((columns - expected_columns).norm(), 1e-9 * (1.0 + expected_columns.norm()));
+    EnvelopeCholesky::Rows rows = EnvelopeCholesky::Rows::Zero(kRows, matrix.rows() + 2);
+    rows.rightCols(matrix.rows() + 2 - first).setRandom();
+    const EnvelopeCholesky::Rows given = rows;
+    const Eigen::MatrixXd expected_rows =
+        dense.matrixL().solve(given.leftCols(matrix.rows()).transpose()).transpose();
+    sparse.solve_lower(rows, first);
+    EXPECT_LT((rows.leftCols(matrix.rows()) - expected_rows).norm(), 1e-9 * (1.0 + expected_rows.norm()));
+    EXPECT_EQ(rows.rightCols<2>(), given.rightCols<2>());
 
     const Eigen::MatrixXd inverse = matrix.inverse();
     EXPECT_LT((sparse.last_of_inverse<kBlock>() - inverse.bottomRightCorner<kBlock, kBlock>()).norm(),

@@ -10,6 +10,8 @@
 #include <random>
 #include <vector>
 
+#include "support/landmark_position.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -312,7 +314,7 @@ TEST_F(LandmarkSums, OfOneLookOnTheGroundGiveThePlaceWhereItsRayMeetsTheGround) 
   const LandmarkObservation& look = told.looks.front();
   const CalibrationVector calibration = drawn<CalibrationVector>();
   const Eigen::Vector2d level = corrected(look, head_with(calibration));
-  const Point position = told.landmark.position(calibration, drift_);
+  const Point position = position_of(told.landmark, calibration, drift_);
   EXPECT_NEAR(position.z(), -1.5, 1e-9);
   EXPECT_LT((position.head<2>() - (level - 1.5 * look.slope)).norm(), 1e-9);
 }
@@ -350,10 +352,10 @@ TEST_F(LandmarkSums, OfAFrozenLatencySayWhatTheyDidAtThatLatencyWhateverItBecome
   Told told;
   look_many(told, 0.0, 20.0, 15);
   CalibrationVector calibration = drawn<CalibrationVector>();
-  const Point before = told.landmark.position(calibration, drift_);
+  const Point before = position_of(told.landmark, calibration, drift_);
   told.landmark.freeze_latency(calibration[CalibrationIndex::kLatency]);
   calibration[CalibrationIndex::kLatency] += 7.0;
-  EXPECT_LT((told.landmark.position(calibration, drift_) - before).norm(), 1e-9);
+  EXPECT_LT((position_of(told.landmark, calibration, drift_) - before).norm(), 1e-9);
 }
 
 TEST_F(LandmarkSums, AreNotConcernedByANodeThatNoLookTouched) {
@@ -395,11 +397,11 @@ TEST_F(LandmarkSums, GiveThePositionOfDenseLeastSquares) {
   prior(told, {6.0, -4.0, 2.0});
   const CalibrationVector calibration = drawn<CalibrationVector>();
   const Point expected = best_position(told, head_with(calibration));
-  EXPECT_LT((told.landmark.position(calibration, drift_) - expected).norm(), 1e-9);
+  EXPECT_LT((position_of(told.landmark, calibration, drift_) - expected).norm(), 1e-9);
   told.landmark.freeze(0, drift_);
-  EXPECT_LT((told.landmark.position(calibration, drift_) - expected).norm(), 1e-9);
+  EXPECT_LT((position_of(told.landmark, calibration, drift_) - expected).norm(), 1e-9);
   freeze_spell();
-  EXPECT_LT((told.landmark.position(calibration, drift_) - expected).norm(), 1e-9);
+  EXPECT_LT((position_of(told.landmark, calibration, drift_) - expected).norm(), 1e-9);
 }
 
 // --- The sway.
@@ -649,13 +651,13 @@ TEST_F(ThinnedLandmarkSums, ShowTheObjectWhereTheyDid) {
   Told told;
   look_many(told, 0.0, 39.9, 80);
   const CalibrationVector calibration = drawn<CalibrationVector>();
-  const Point expected = told.landmark.position(calibration, drift_);
+  const Point expected = position_of(told.landmark, calibration, drift_);
   for (int i = 0; i < 4; ++i) {
     const auto node = drift_.next_to_thin();
     ASSERT_TRUE(node);
     told.landmark.thin(*node, drift_);
     drift_.thin(*node);
-    EXPECT_LT((told.landmark.position(calibration, drift_) - expected).norm(), 1e-9);
+    EXPECT_LT((position_of(told.landmark, calibration, drift_) - expected).norm(), 1e-9);
   }
 }
 

@@ -42,6 +42,26 @@ TEST_P(CameraLaws, JacobianIsTheNumericDerivative) {
   }
 }
 
+/// Without inverting the lens.
+TEST_P(CameraLaws, RayToAPointIsThatOfItsPixel) {
+  const CameraModel camera(camera_with(GetParam().distortion));
+  for (double x = -0.9; x <= 0.9; x += 0.15) {
+    for (double y = -0.5; y <= 0.5; y += 0.25) {
+      const Eigen::Vector3d point = 40.0 * Eigen::Vector3d(x, y, 1.0);
+      const auto pixel = camera.pixel(point);
+      const auto found = camera.ray_to(point);
+      ASSERT_EQ(found.has_value(), pixel.has_value()) << x << ", " << y;
+      if (!pixel) continue;
+      const auto expected = camera.ray(*pixel);
+      ASSERT_TRUE(expected);
+      EXPECT_LT((found->normalized - expected->normalized).norm(), 1e-9);
+      EXPECT_LT((found->normalized_from_pixel - expected->normalized_from_pixel).norm(), 1e-11);
+    }
+  }
+  EXPECT_FALSE(camera.ray_to({0.0, 0.0, -1.0}));
+  EXPECT_FALSE(camera.ray_to({0.0, std::numeric_limits<double>::quiet_NaN(), 1.0}));
+}
+
 INSTANTIATE_TEST_SUITE_P(Lenses, CameraLaws, every_lens(), lens_name);
 
 TEST(Camera, RefusesPixelsBeyondItsLensModel) {

@@ -54,6 +54,25 @@ TEST_P(ProjectorLaws, ReprojectsEveryPointOfARayToItsPixel) {
   }
 }
 
+/// As if its pixel's ray met a plane of the point's height.
+TEST_P(ProjectorLaws, FixOfAPointIsThatOfItsPixelOnTheLevelOfItsHeight) {
+  const Rigid3d enu_from_camera = pose_of(GetParam());
+  const Projector projector(ground_at_1_5_m(), kCamera);
+  for (const double height_m : {1.5, -4.0, 6.5}) {
+    ProjectorConfig at_height = ground_at_1_5_m();
+    at_height.ground_height_above_home_m = height_m;
+    const auto expected = Projector(at_height, kCamera).project({500.0, 650.0}, enu_from_camera);
+    ASSERT_TRUE(expected);
+    const Eigen::Vector3d point(expected->position_in_enu.x(), expected->position_in_enu.y(), height_m);
+    const auto fix = projector.fix_of_point(point, enu_from_camera);
+    ASSERT_TRUE(fix);
+    EXPECT_LT((fix->position_in_enu - expected->position_in_enu).norm(), 1e-9);
+    EXPECT_LT((fix->ground_from_pixel - expected->ground_from_pixel).norm(), 1e-9);
+    EXPECT_LT((fix->direction_in_enu - expected->direction_in_enu).norm(), 1e-12);
+    EXPECT_NEAR(fix->range_m, expected->range_m, 1e-9);
+  }
+}
+
 TEST_P(ProjectorLaws, StatedCovarianceIsTheSampledOne) {
   const Projector projector(ground_at_1_5_m(), kCamera);
   const Rigid3d enu_from_camera = pose_of(GetParam());
@@ -115,6 +134,32 @@ TEST(Projector, TellsWhyThereIsNoFix) {
 }
 
 /// Straight down from 20 m.
+/// A point's own ray tells as much as its pixel does.
+TEST_P(ProjectorLaws, TellsOfAPointWhatItTellsOfItsPixel) {
+  const Rigid3d enu_from_camera = pose_of(GetParam());
+  ProjectorConfig config = ground_at_1_5_m();
+  config.max_range_m = 150.0;
+  config.min_depression_deg = 12.0;
+  const Projector projector(config, kCamera);
+  int fixes = 0, none = 0;
+  for (double east_m = -400.0; east_m <= 400.0; east_m += 31.0) {
+    for (double north_m = -400.0; north_m <= 400.0; north_m += 31.0) {
+      const Eigen::Vector3d point = enu_from_camera.translation + Eigen::Vector3d(east_m, north_m, -50.0);
+      const auto pixel = projector.reproject(point, enu_from_camera);
+      const auto fix = projector.fix_of_point(point, enu_from_camera);
+      ASSERT_TRUE(pixel || !fix);
+      if (!pixel) continue;
+      const auto expected = projector.project(*pixel, enu_from_camera);
+      ASSERT_EQ(fix.has_value(), expected.has_value()) << point.transpose();
+      EXPECT_EQ(projector.sees_point(point, enu_from_camera, 0.0),
+                expected && projector.camera().contains(*pixel));
+      ++(fix ? fixes : none);
+    }
+  }
+  EXPECT_GT(fixes, 0);
+  EXPECT_GT(none, 0);
+}
+
 TEST(Projector, ReachesAsFarAsItsRangeAndNoFarther) {
   const CameraIntrinsics straight;
   const Rigid3d looking_down{Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 20.0}};

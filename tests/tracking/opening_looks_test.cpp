@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/opening_looks.hpp"
+#include "support/landmark_position.hpp"
 
 #include <gtest/gtest.h>
 
@@ -232,7 +233,7 @@ TEST_F(OpeningFrames, ShowObjectsAtTheirPlacesOnceTheLatencyIsKnown) {
   const auto miss_m = [&](double latency_s) {
     errors_.calibration.mean[Index::kLatency] = latency_s;
     linearise_anew();
-    const Point found = object.landmark->position(errors_.calibration.mean, errors_.drift);
+    const Point found = position_of(*object.landmark, errors_.calibration.mean, errors_.drift);
     return (found + Point(0.0, 0.0, kGround_m) - place).norm();
   };
   EXPECT_GT(miss_m(0.0), 0.3);
@@ -329,7 +330,7 @@ TEST_F(OpeningFrames, LeaveAnObjectInPlaceWhereNoneOfItsRaysMeetsTheGround) {
   set_calibration({2.5, 0.0, 0.0}, 0.1, 0.0);
   linearise_anew();
   ASSERT_EQ(tracks_[0].landmark->begin(), tracks_[0].landmark->end());
-  const Point place = tracks_[0].landmark->position(errors_.calibration.mean, errors_.drift);
+  const Point place = position_of(*tracks_[0].landmark, errors_.calibration.mean, errors_.drift);
   EXPECT_LT((place - Point(12.0, -7.0, 0.5)).head<2>().norm(), 1e-9);
   EXPECT_TRUE(solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift));
 }

@@ -76,6 +76,10 @@ class CameraModel {
   /// K^-1 p of eq. 9; nullopt where the pixel is not finite or the distortion has no inverse there.
   std::optional<ImageRay> ray(const Eigen::Vector2d& pixel) const;
 
+  /// The ray that shows a point in the camera (right-down-forward) [m]: that of pixel(), without inverting the
+  /// lens. nullopt where pixel() has none.
+  std::optional<ImageRay> ray_to(const Eigen::Vector3d& point_in_camera) const;
+
   /// Pixel of a point in the camera (right-down-forward) [m] (eq. 7); nullopt for a point behind the camera,
   /// too far off axis for the distortion model, or not finite. The pixel may lie outside the image.
   std::optional<Eigen::Vector2d> pixel(const Eigen::Vector3d& point_in_camera) const;
@@ -86,6 +90,8 @@ class CameraModel {
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 
  private:
+  std::optional<Eigen::Vector2d> normalized(const Eigen::Vector3d& point_in_camera) const;
+
   CameraIntrinsics intrinsics_;
   double
       max_radius_squared_;  // of normalized undistorted coordinates: the distortion is monotonic up to here

@@ -7,6 +7,7 @@
 
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/geometry/expected.hpp"
+#include "geoloc/geometry/ray_plane.hpp"
 #include "geoloc/geometry/rigid3.hpp"
 #include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/projection/ground_model.hpp"
@@ -26,6 +27,11 @@ class Projector {
   /// On the ground, whose heights count from the plane.
   Expected<GroundFix, NoFix> project(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera,
                                      const GroundModel& ground) const;
+
+  /// Of a point that need not lie in the plane: where its ray meets the level of its height, which is itself.
+  /// NoFix where project() has none for its pixel.
+  Expected<GroundFix, NoFix> fix_of_point(const Eigen::Vector3d& point_in_enu,
+                                          const Rigid3d& enu_from_camera) const;
 
   /// All pixels of one frame; fixes[i] belongs to pixels[i]. `fixes` is overwritten, within its capacity.
   void project(const std::vector<Eigen::Vector2d>& pixels, const Rigid3d& enu_from_camera,
@@ -55,6 +61,7 @@ class Projector {
  private:
   struct PixelRay;
   Expected<PixelRay, NoFix> ray_of(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera) const;
+  Expected<double, NoFix> range_of_plane(const Ray<double>& ray) const;
 
   ProjectorConfig config_;
   CameraModel camera_;

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/row_kernels.hpp"
+
+// Not FMA, which rounds once where two roundings are due.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
+#define GEOLOC_WIDE_REGISTERS __attribute__((target_clones("avx2", "default")))
+#else
+#define GEOLOC_WIDE_REGISTERS
+#endif
+
+namespace geoloc {
+namespace {
+
+/// As many side by side as the widest registers hold; the compiler splits them where they are narrower.
+constexpr std::size_t kLanes = 4;
+using Lanes =
+    double __attribute__((vector_size(kLanes * sizeof(double)), aligned(alignof(double)), may_alias));
+
+inline const Lanes& lanes(const double* from) {
+  return *reinterpret_cast<const Lanes*>(from);
+}
+
+}  // namespace
+
+GEOLOC_WIDE_REGISTERS
+double dot_of_rows(const double* x, const double* y, std::size_t size) {
+  Lanes even = {}, odd = {};  // two sums that do not wait for each other
+  std::size_t i = 0;
+  for (; i + 2 * kLanes <= size; i += 2 * kLanes) {
+    even += lanes(x + i) * lanes(y + i);
+    odd += lanes(x + i + kLanes) * lanes(y + i + kLanes);
+  }
+  double rest = 0.0;
+  for (; i < size; ++i) rest += x[i] * y[i];
+  const Lanes sum = even + odd;
+  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + rest;
+}
+
+GEOLOC_WIDE_REGISTERS
+std::array<double, 3> dots_of_rows(const double* x, const std::array<const double*, 3>& y, std::size_t size) {
+  Lanes first = {}, second = {}, third = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= size; i += kLanes) {
+    first += lanes(x + i) * lanes(y[0] + i);
+    second += lanes(x + i) * lanes(y[1] + i);
+    third += lanes(x + i) * lanes(y[2] + i);
+  }
+  const Lanes sums[] = {first, second, third};
+  std::array<double, 3> dots;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double rest = 0.0;
+    for (std::size_t r = i; r < size; ++r) rest += x[r] * y[k][r];
+    dots[k] = ((sums[k][0] + sums[k][1]) + (sums[k][2] + sums[k][3])) + rest;
+  }
+  return dots;
+}
+
+GEOLOC_WIDE_REGISTERS
+void subtract_rows(double* __restrict__ y, const std::array<double, 3>& a,
+                   const std::array<const double*, 3>& x, std::size_t size) {
+  const double a0 = a[0], a1 = a[1], a2 = a[2];
+  const double* const __restrict__ x0 = x[0], * const __restrict__ x1 = x[1], * const __restrict__ x2 = x[2];
+  for (std::size_t i = 0; i < size; ++i) y[i] -= a0 * x0[i] + a1 * x1[i] + a2 * x2[i];
+}
+
+}  // namespace geoloc
