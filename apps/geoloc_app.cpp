@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Live: telemetry by MAVLink and a camera's frames in, geographic coordinates of objects out.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -21,6 +23,7 @@
 #include "common/periodic.hpp"
 #include "common/run_record.hpp"
 #include "common/stop_signal.hpp"
+#include "common/text_writer.hpp"
 
 namespace {
 
@@ -30,6 +33,7 @@ using namespace geoloc::apps;
 constexpr auto kStatusPeriod = std::chrono::seconds{1};
 /// Files are written anew so often, so that a power cut costs seconds.
 constexpr auto kFilePeriod = std::chrono::seconds{5};
+constexpr auto kTablePatience = std::chrono::seconds{5};
 
 /// Everything that can be wrong with arguments, files, model and port is found while this is made.
 struct Program {
@@ -110,6 +114,15 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
   }
 }
 
+/// False where stdout does not take it.
+bool show_table(const io::RunRecord& record, Console& console) {
+  TextWriter table(STDOUT_FILENO);
+  table.post(objects_to_table(record.objects));
+  const bool is_shown = table.finish(kTablePatience);
+  if (!is_shown) console.say("geoloc_app: stdout does not take the table of objects; name a file with --out");
+  return is_shown;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -123,7 +136,7 @@ int main(int argc, char** argv) {
     if (options.print_settings) {
       std::fputs(live_settings_table().c_str(), stdout);
     } else if (options.print_config) {
-      std::puts(live_to_json(load_config(options)).dump(2).c_str());
+      std::puts(live_to_json(load_config(options).config).dump(2).c_str());
     } else {
       program = std::make_unique<Program>(options);
     }
@@ -134,6 +147,7 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   Console console;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
+  if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->page) console.say("page: " + program->page->url());
   run_until_stopped(*program, console, stop);
   program->session.finish();
@@ -143,7 +157,7 @@ int main(int argc, char** argv) {
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
   console.say(record.summary);
-  if (options.outputs.wants_table()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
-  const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed();
+  const bool is_shown = !options.outputs.wants_table() || show_table(record, console);
+  const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed() || !is_shown;
   return has_failed ? kFailed : kDone;
 }

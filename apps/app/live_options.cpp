@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_options.hpp"
 
-#include <cstdio>
-
 namespace geoloc::apps {
 
 void add_live_options(CLI::App& program, LiveOptions& options) {
@@ -26,8 +24,9 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add_output_options(program, options.outputs);
 }
 
-LiveConfig load_config(const LiveOptions& options) {
-  LiveConfig config;
+LoadedConfig load_config(const LiveOptions& options) {
+  LoadedConfig loaded;
+  LiveConfig& config = loaded.config;
   const auto apply = [&config](const nlohmann::json& document, const std::string& name) {
     std::vector<std::string> problems;
     live_from_json(document, config, problems);
@@ -36,11 +35,9 @@ LiveConfig load_config(const LiveOptions& options) {
   if (!options.config_file.empty()) apply(read_config_document(options.config_file), options.config_file);
   if (!options.method.empty()) apply({{"method", options.method}}, "--method");
   apply_priors(options.priors, config.estimation.geolocator);
-  if (const std::string remarks = apply_ground(options.ground, config.estimation.geolocator);
-      !remarks.empty())
-    std::fprintf(stderr, "%s\n", remarks.c_str());
+  loaded.remarks = apply_ground(options.ground, config.estimation.geolocator);
   config.detection = with_backend(options.detector, config.detection);
-  return config;
+  return loaded;
 }
 
 }  // namespace geoloc::apps

@@ -31,7 +31,12 @@ struct LiveOptions {
 
 void add_live_options(CLI::App& program, LiveOptions& options);
 
+struct LoadedConfig {
+  LiveConfig config;
+  std::string remarks;  ///< what the user should know of it; may be empty
+};
+
 /// The configuration file under the options. Throws std::runtime_error listing every fault.
-LiveConfig load_config(const LiveOptions& options);
+LoadedConfig load_config(const LiveOptions& options);
 
 }  // namespace geoloc::apps
