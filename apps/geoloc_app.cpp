@@ -40,24 +40,24 @@ struct Program {
   explicit Program(const LiveOptions& given)
       : options(given),
         inputs(open_inputs(given, clock)),
-        recorder(given.record_folder),
         reports(inputs.config.estimation, inputs.detector->class_names()),
         session(inputs.config.estimation,
                 [this](HostTime received_at, const std::uint8_t* frame, std::size_t size) {
-                  recorder.write(
-                      [&](io::RecordingWriter& writer) { writer.add_telemetry(received_at, frame, size); });
+                  recorder->add_telemetry(received_at, frame, size);
                   reports.on_telemetry(frame, size);
                 }),
         outputs(inputs.detector->class_names(), {}) {
-    add_sinks(given.outputs, inputs.config.estimation, outputs);
+    add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
     page = open_live_page(given.outputs.http, inputs.config.estimation.live_page, {source(), true},
                           inputs.detector->class_names(), outputs);
-    recorder.write([this](io::RecordingWriter& writer) {
-      writer.write_camera(inputs.config.estimation.geolocator.camera);
-      writer.write_config(live_to_json(inputs.config).dump(2));
-      writer.write_class_names(inputs.detector->class_names());
-      if (!inputs.truth.empty()) writer.write_truth(inputs.truth);
-    });
+    recorder.emplace(given.record_folder, [this](io::RecordingWriter& writer) { write_settings(writer); });
+  }
+
+  void write_settings(io::RecordingWriter& writer) const {
+    writer.write_camera(inputs.config.estimation.geolocator.camera);
+    writer.write_config(live_to_json(inputs.config).dump(2));
+    writer.write_class_names(inputs.detector->class_names());
+    if (!inputs.truth.empty()) writer.write_truth(inputs.truth);
   }
 
   /// For people; the stream's address may hold a password.
@@ -70,11 +70,11 @@ struct Program {
   LiveOptions options;
   io::HostClock clock;
   LiveInputs inputs;
-  Recorder recorder;
   VehicleReports reports;
   Session session;
   Outputs outputs;
   std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
+  std::optional<Recorder> recorder;    ///< made last: a run that cannot begin leaves no folder
 };
 
 void tell_all(const std::vector<std::string>& messages, Console& console) {
@@ -94,7 +94,7 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
   }
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
-  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.reports, program.clock,
+  LiveRun run(program.session, *inputs.socket, worker, *program.recorder, program.reports, program.clock,
               [&program](const PendingFrame& frame, bool is_located) {
                 program.outputs.post_frame(program.session, frame, is_located);
               });
@@ -106,6 +106,7 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
     if (status.is_due(now)) {
       const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
       tell_all(program.outputs.take_messages(), console);
+      tell_all(program.recorder->take_messages(), console);
       tell_all(program.session.take_news(), console);
       console.update(state);
       program.outputs.post_status(state);
@@ -152,12 +153,13 @@ int main(int argc, char** argv) {
   run_until_stopped(*program, console, stop);
   program->session.finish();
 
-  program->recorder.finish();
+  program->recorder->finish();
+  tell_all(program->recorder->take_messages(), console);
   const io::RunRecord record = program->record();
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
   console.say(record.summary);
   const bool is_shown = !options.outputs.wants_table() || show_table(record, console);
-  const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed() || !is_shown;
+  const bool has_failed = program->outputs.has_failed() || program->recorder->has_failed() || !is_shown;
   return has_failed ? kFailed : kDone;
 }

@@ -106,7 +106,7 @@ struct Program {
         session(config),
         // A replay is faster than its sinks, so it waits for them.
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
-    add_sinks(options.outputs, config, outputs);
+    add_sinks(options.outputs, config, io::OldFile::kReplace, outputs);
     page = open_live_page(options.outputs.http, config.live_page, {options.recording, false},
                           recording.class_names, outputs);
   }

@@ -14,6 +14,7 @@ import time
 import unittest
 
 BIN = pathlib.Path(os.environ["GEOLOC_BIN_DIR"])
+SOURCE = pathlib.Path(os.environ["GEOLOC_SOURCE_DIR"])
 PATIENCE_S = 100  # how long to wait for what must come; only a slow machine needs so long
 
 Result = collections.namedtuple("Result", "status out err")

@@ -14,7 +14,8 @@
 
 namespace geoloc::io {
 
-JsonLinesSink::JsonLinesSink(std::string target) : target_(std::move(target)) {}
+JsonLinesSink::JsonLinesSink(std::string target, OldFile old_file, TellUser tell)
+    : target_(std::move(target)), old_file_(old_file), tell_(std::move(tell)) {}
 
 JsonLinesSink::~JsonLinesSink() {
   if (descriptor_ > STDERR_FILENO) close(descriptor_);
@@ -31,11 +32,17 @@ void JsonLinesSink::open() {
     descriptor_ = STDOUT_FILENO;
     return;
   }
-  const bool is_file = is_file_or_none(target_);
-  if (is_file) partial_ = target_ + ".partial";
-  descriptor_ = ::open(is_file ? partial_.c_str() : target_.c_str(),
-                       O_WRONLY | O_CLOEXEC | (is_file ? O_CREAT | O_TRUNC : 0), 0666);
+  descriptor_ = is_file_or_none(target_) ? open_partial() : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC);
   if (descriptor_ < 0) fail(errno);
+}
+
+/// Under a name that nobody else uses: what a run that was cut off has left is all that there is of it.
+int JsonLinesSink::open_partial() {
+  for (int number = 1;; ++number) {
+    partial_ = target_ + ".partial" + (number == 1 ? "" : "-" + std::to_string(number));
+    const int descriptor = ::open(partial_.c_str(), O_WRONLY | O_CLOEXEC | O_CREAT | O_EXCL, 0666);
+    if (descriptor >= 0 || errno != EEXIST) return descriptor;
+  }
 }
 
 void JsonLinesSink::write(const std::string& lines) {
@@ -49,9 +56,11 @@ void JsonLinesSink::write(const std::string& lines) {
 }
 
 void JsonLinesSink::on_end() {
+  if (descriptor_ < 0 && last_lines_.empty()) return;  // the run did not begin
   write(last_lines_);
   if (has_failed_ || partial_.empty()) return;
   if (close(std::exchange(descriptor_, -1)) != 0) fail(errno);
+  if (old_file_ == OldFile::kKeep) keep_and_tell(target_, tell_);
   if (std::rename(partial_.c_str(), target_.c_str()) != 0) fail(errno);
 }
 

@@ -4,16 +4,17 @@
 #include <string>
 
 #include "geoloc/io/output/json_lines.hpp"
+#include "geoloc/io/output/result_file.hpp"
 #include "geoloc/io/output/sink.hpp"
 
 namespace geoloc::io {
 
 /// Writes JSON Lines to standard output ("-"), to a pipe or device, or to a file, which is called
-/// FILE.partial until it is complete. After a failed write nothing more is written, because half a line would
-/// spoil the next one.
+/// FILE.partial until it is complete (FILE.partial-2, … where an earlier run has left one). After a failed
+/// write nothing more is written, because half a line would spoil the next one.
 class JsonLinesSink final : public Sink {
  public:
-  explicit JsonLinesSink(std::string target);
+  JsonLinesSink(std::string target, OldFile old_file, TellUser tell);
   ~JsonLinesSink() override;
   JsonLinesSink(const JsonLinesSink&) = delete;
   JsonLinesSink& operator=(const JsonLinesSink&) = delete;
@@ -26,10 +27,13 @@ class JsonLinesSink final : public Sink {
 
  private:
   void open();
+  int open_partial();
   void write(const std::string& lines);
   [[noreturn]] void fail(int error);
 
   std::string target_;
+  OldFile old_file_;
+  TellUser tell_;
   std::string partial_;  // the file's name while it is written; empty for streams
   int descriptor_ = -1;
   bool has_failed_ = false;
