@@ -1,15 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A short simulated flight and geoloc_app, to which a test does harm."""
 import json
+import os
 import signal
 import subprocess
 import time
 
 from support import BIN, PATIENCE_S, AppTest, World
-
-# A part of the flight with targets in view; it is flown in a third of its time.
-PIECE = ("--start-s", 80, "--end-s", 95, "--speed", 3)
-
 
 def wait_until(holds, what):
     """Returns the first true value of holds()."""
@@ -20,6 +17,12 @@ def wait_until(holds, what):
             return value
         time.sleep(0.05)
     raise AssertionError(f"never: {what}")
+
+
+def shim(**settings):
+    """The environment of a program whose disk is ours (disk_shim.cpp)."""
+    return {**os.environ, "LD_PRELOAD": os.environ["GEOLOC_DISK_SHIM"],
+            "ASAN_OPTIONS": "verify_asan_link_order=0", **{name: str(value) for name, value in settings.items()}}
 
 
 def line_count(file):
@@ -45,9 +48,9 @@ class FaultTest(AppTest):
         self.addCleanup(app.kill)
         return app
 
-    def fly(self, *arguments):
-        """Flies the piece to its end."""
-        with self.world.fly(*PIECE, *arguments) as sim:
+    def fly(self, end_s=95, speed=3):
+        """Flies a part of the flight with targets in view, 80 s to `end_s`, to its end."""
+        with self.world.fly("--start-s", 80, "--end-s", end_s, "--speed", speed) as sim:
             self.assertEqual(sim.wait(), 0, sim.lines)
 
     def interrupt(self, app):

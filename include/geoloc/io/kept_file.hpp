@@ -9,7 +9,7 @@
 #include <string>
 #include <system_error>
 
-#include "geoloc/io/partial_file.hpp"
+#include "geoloc/io/write_failure.hpp"
 
 namespace geoloc::io {
 

@@ -9,8 +9,8 @@
 #include <string_view>
 #include <utility>
 
-#include "geoloc/io/partial_file.hpp"
 #include "geoloc/io/sync.hpp"
+#include "geoloc/io/write_failure.hpp"
 
 namespace geoloc::io {
 

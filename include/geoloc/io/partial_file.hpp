@@ -3,20 +3,15 @@
 
 #include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
 
-namespace geoloc::io {
+#include "geoloc/io/sync.hpp"
+#include "geoloc/io/write_failure.hpp"
 
-/// Throws std::runtime_error naming the file and the system's reason; an error of 0 is read as EIO.
-[[noreturn]] inline void fail_to_write(const std::filesystem::path& file, int error) {
-  throw std::runtime_error(
-      file.string() + ": cannot be written: " + std::generic_category().message(error != 0 ? error : EIO));
-}
+namespace geoloc::io {
 
 /// The temporary name of a file while it is written, beside its own: readers see either the old content or
 /// the new. A file that is not committed is removed.
@@ -35,12 +30,15 @@ class PartialFile {
   /// The name to write to; close the file before commit().
   const std::filesystem::path& name() const { return name_; }
 
-  /// The file is complete: renames it to its own name. Throws as fail_to_write() does.
+  /// The file is complete: renames it to its own name. A power cut leaves either the old content or the new.
+  /// Throws as fail_to_write() does.
   void commit() {
+    sync(name_);
     std::error_code error;
     std::filesystem::rename(name_, file_, error);
     if (error) fail_to_write(file_, error.value());
     is_committed_ = true;
+    sync_name(file_);
   }
 
  private:

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <filesystem>
 
-#include "geoloc/io/partial_file.hpp"
+#include "geoloc/io/write_failure.hpp"
 
 namespace geoloc::io {
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "geoloc/io/atomic_file.hpp"
+#include "geoloc/io/sync.hpp"
 
 namespace geoloc::io {
 
@@ -55,10 +56,17 @@ void JsonLinesSink::write(const std::string& lines) {
   }
 }
 
+void JsonLinesSink::on_status(const LiveStatus& status) {
+  write(JsonLines::status(status));
+  if (has_failed_ || partial_.empty()) return;
+  if (const int error = sync(descriptor_); error != 0) fail(error);
+}
+
 void JsonLinesSink::on_end() {
   if (descriptor_ < 0 && last_lines_.empty()) return;  // the run did not begin
   write(last_lines_);
   if (has_failed_ || partial_.empty()) return;
+  if (const int error = sync(descriptor_); error != 0) fail(error);
   if (close(std::exchange(descriptor_, -1)) != 0) fail(errno);
   if (old_file_ == OldFile::kKeep) keep_and_tell(target_, tell_);
   if (std::rename(partial_.c_str(), target_.c_str()) != 0) fail(errno);

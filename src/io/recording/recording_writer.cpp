@@ -11,8 +11,8 @@
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/detection_fields.hpp"
-#include "geoloc/io/partial_file.hpp"
 #include "geoloc/io/sync.hpp"
+#include "geoloc/io/write_failure.hpp"
 
 namespace geoloc::io {
 namespace {

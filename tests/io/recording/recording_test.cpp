@@ -170,6 +170,21 @@ INSTANTIATE_TEST_SUITE_P(
                       R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "class_id": 1e12}]})",
                       R"({"time_us": 6, "detections": [], "telemetry_records": -3})"));
 
+TEST(Frames, WhatAPowerCutLeavesAtTheEndIsSkippedAndCounted) {
+  using namespace std::string_literals;
+  const std::string good = R"({"time_us": 5, "detections": []})";
+  for (const std::string& end : {R"({"time_us": 6, "dete)"s, "\0\0\0"s, "{\"time\0\0\0"s, "\0\0}\n"s}) {
+    std::istringstream input(good + "\n" + end);
+    std::size_t skipped = 0;
+    EXPECT_EQ(read_frames(input, "frames.jsonl", BadLines::kRefuse, skipped).size(), 1U) << end;
+    EXPECT_EQ(skipped, 1U);
+  }
+  std::istringstream whole(good + "\n" + good);  // other programs may leave out the last line's end
+  std::size_t skipped = 0;
+  EXPECT_EQ(read_frames(whole, "frames.jsonl", BadLines::kRefuse, skipped).size(), 2U);
+  EXPECT_EQ(skipped, 0U);
+}
+
 TEST(Truth, RefusesWhatIsNoPlace) {
   const testing::TemporaryFolder temporary;
   for (const char* text :

@@ -10,7 +10,8 @@
 namespace geoloc::io {
 
 /// Writes JSON Lines to standard output ("-"), to a pipe or device, or to a file, which is called
-/// FILE.partial until it is complete (FILE.partial-2, … where an earlier run has left one). After a failed
+/// FILE.partial until it is complete (FILE.partial-2, … where an earlier run has left one). In a live run, a
+/// power cut costs the last second of a file. After a failed
 /// write nothing more is written, because half a line would spoil the next one.
 class JsonLinesSink final : public Sink {
  public:
@@ -21,7 +22,7 @@ class JsonLinesSink final : public Sink {
 
   std::string name() const override { return "--jsonl " + target_; }
   void on_frame(const OutputFrame& frame) override { write(lines_.frame(frame)); }
-  void on_status(const LiveStatus& status) override { write(JsonLines::status(status)); }
+  void on_status(const LiveStatus& status) override;
   void on_run(const RunRecord& run) override { last_lines_ = JsonLines::end(run); }
   void on_end() override;
 
