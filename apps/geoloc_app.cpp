@@ -14,8 +14,10 @@
 #include "app/live_status.hpp"
 #include "app/page_pictures.hpp"
 #include "app/recorder.hpp"
+#include "app/resources.hpp"
 #include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
+#include "common/last_words.hpp"
 #include "common/live_page_output.hpp"
 #include "common/objects_table.hpp"
 #include "common/output_options.hpp"
@@ -127,6 +129,8 @@ bool show_table(const io::RunRecord& record, Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  leave_last_words("geoloc_app");
+  take_write_signals_as_errors();
   CLI::App cli("Finds ground objects in a drone's live video and gives their coordinates.", "geoloc_app");
   LiveOptions options;
   add_live_options(cli, options);
@@ -139,6 +143,7 @@ int main(int argc, char** argv) {
     } else if (options.print_config) {
       std::puts(live_to_json(load_config(options).config).dump(2).c_str());
     } else {
+      require_resources();
       program = std::make_unique<Program>(options);
     }
   });
