@@ -19,6 +19,7 @@
 #include "common/command_line.hpp"
 #include "common/last_words.hpp"
 #include "common/live_page_output.hpp"
+#include "common/message_box.hpp"
 #include "common/objects_table.hpp"
 #include "common/output_options.hpp"
 #include "common/outputs.hpp"
@@ -26,6 +27,7 @@
 #include "common/run_record.hpp"
 #include "common/stop_signal.hpp"
 #include "common/text_writer.hpp"
+#include "geoloc/io/video/library_messages.hpp"
 
 namespace {
 
@@ -84,7 +86,8 @@ void tell_all(const std::vector<std::string>& messages, Console& console) {
 }
 
 /// Until the video ends or the user has enough.
-void run_until_stopped(Program& program, Console& console, const StopSignal& stop) {
+void run_until_stopped(Program& program, MessageBox& library_words, Console& console,
+                       const StopSignal& stop) {
   const LiveInputs& inputs = program.inputs;
   std::optional<PagePictures> pictures;
   DetectionWorker::OnDetected on_detected;
@@ -107,6 +110,7 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
     const HostTime now = program.clock.now();
     if (status.is_due(now)) {
       const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
+      tell_all(library_words.take(), console);
       tell_all(program.outputs.take_messages(), console);
       tell_all(program.recorder->take_messages(), console);
       tell_all(program.session.take_news(), console);
@@ -136,6 +140,11 @@ int main(int argc, char** argv) {
   add_live_options(cli, options);
   if (const auto status = parse(cli, argc, argv)) return *status;
 
+  const auto library_words = std::make_shared<MessageBox>();
+  io::take_library_messages([library_words](const std::string& message, bool is_fatal) {
+    if (is_fatal) end_with_last_words(message.c_str());
+    library_words->post(message);
+  });
   std::unique_ptr<Program> program;
   const auto unusable = guard("geoloc_app", kUnusable, [&] {
     if (options.print_settings) {
@@ -147,15 +156,16 @@ int main(int argc, char** argv) {
       program = std::make_unique<Program>(options);
     }
   });
+  Console console;
+  tell_all(library_words->take(), console);
   if (unusable) return *unusable;
   if (!program) return kDone;
 
   const StopSignal stop;
-  Console console;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
   if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->page) console.say("page: " + program->page->url());
-  run_until_stopped(*program, console, stop);
+  run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
 
   program->recorder->finish();

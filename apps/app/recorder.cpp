@@ -4,10 +4,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <variant>
 
 #include "common/message_box.hpp"
+#include "geoloc/io/write_failure.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -27,17 +29,17 @@ struct Recorder::State {
   };
   using Entry = std::variant<Telemetry, io::RecordedFrame>;
 
-  State(const std::string& folder, std::size_t its_bound_bytes)
-      : writer(folder, io::NameTaken::kNumber), most_waiting_bytes(its_bound_bytes) {}
+  explicit State(std::size_t its_bound_bytes) : most_waiting_bytes(its_bound_bytes) {}
 
+  bool begin(const std::string& folder, const WriteSettings& write_settings);
   void run();
   bool add(Entry entry);
   void close();
   bool wait_until_done();
-  void give_up(const char* reason);
+  void give_up(const std::string& reason);
 
-  io::RecordingWriter writer;  // the thread's, once that runs
   const std::size_t most_waiting_bytes;
+  std::optional<io::RecordingWriter> writer;  // the thread's, once that runs
   MessageBox messages;
 
   std::mutex mutex;  // guards what follows
@@ -68,16 +70,32 @@ std::size_t Recorder::State::size_bytes(const Entry& entry) {
 
 void Recorder::State::write(const Entry& entry) {
   if (const auto* telemetry = std::get_if<Telemetry>(&entry)) {
-    writer.add_telemetry(telemetry->received_at, telemetry->frame.data(), telemetry->frame.size());
+    writer->add_telemetry(telemetry->received_at, telemetry->frame.data(), telemetry->frame.size());
   } else {
-    writer.add_frame(std::get<io::RecordedFrame>(entry));
+    writer->add_frame(std::get<io::RecordedFrame>(entry));
   }
+}
+
+/// False where the disk does not take it, which is no reason not to fly.
+bool Recorder::State::begin(const std::string& folder, const WriteSettings& write_settings) {
+  try {
+    writer.emplace(folder, io::NameTaken::kNumber);
+    if (writer->folder() != folder)
+      messages.post("recording into " + writer->folder().string() + ": " + folder +
+                    " is taken by another run, or by what is left of one");
+    write_settings(*writer);
+  } catch (const io::WriteFailure& failure) {
+    if (!failure.is_of_disk() && !writer) throw;
+    give_up(failure.what());
+    return false;
+  }
+  return true;
 }
 
 void Recorder::State::run() {
   try {
     record_until_closed();
-    writer.finish();
+    writer->finish();
   } catch (const std::exception& error) {
     give_up(error.what());
   }
@@ -98,7 +116,7 @@ void Recorder::State::record_until_closed() {
     batch.clear();
     if (SteadyClock::now() < sync_at) continue;
     sync_at = SteadyClock::now() + kSyncPeriod;
-    writer.sync();
+    writer->sync();
     note_move();
   }
 }
@@ -118,9 +136,9 @@ void Recorder::State::note_move() {
   has_moved.notify_all();
 }
 
-void Recorder::State::give_up(const char* reason) {
-  messages.post(std::string("recording stopped, the run goes on: ") + reason +
-                "; what was written stays in " + writer.partial_folder().string());
+void Recorder::State::give_up(const std::string& reason) {
+  messages.post("recording stopped, the run goes on: " + reason +
+                (writer ? "; what was written stays in " + writer->partial_folder().string() : ""));
   const std::lock_guard lock(mutex);
   has_failed = true;
   waiting.clear();
@@ -134,7 +152,7 @@ bool Recorder::State::add(Entry entry) {
   if (waiting_bytes + size > most_waiting_bytes) {
     if (telemetry_left_out + frames_left_out == 0)
       messages.post("recording: the disk does not keep up, telemetry and frames are left out of " +
-                    writer.folder().string());
+                    writer->folder().string());
     ++(std::holds_alternative<Telemetry>(entry) ? telemetry_left_out : frames_left_out);
     return false;
   }
@@ -162,17 +180,8 @@ bool Recorder::State::wait_until_done() {
 Recorder::Recorder(const std::string& folder, const WriteSettings& write_settings,
                    std::size_t most_waiting_bytes) {
   if (folder.empty()) return;
-  state_ = std::make_shared<State>(folder, most_waiting_bytes);
-  if (state_->writer.folder() != folder)
-    state_->messages.post("recording into " + state_->writer.folder().string() + ": " + folder +
-                          " is taken by another run, or by what is left of one");
-  try {
-    write_settings(state_->writer);
-  } catch (const std::exception& error) {
-    state_->give_up(error.what());
-    return;
-  }
-  thread_ = std::thread([state = state_] { state->run(); });
+  state_ = std::make_shared<State>(most_waiting_bytes);
+  if (state_->begin(folder, write_settings)) thread_ = std::thread([state = state_] { state->run(); });
 }
 
 Recorder::~Recorder() {

@@ -23,7 +23,8 @@ class Recorder {
   static constexpr std::size_t kMostWaiting_bytes = 32 << 20;  ///< minutes of a usual flight
 
   /// No recording where `folder` is empty; under another name where that one is taken. `write_settings` is
-  /// called at once: what it writes is safe when this returns. Throws std::runtime_error if it cannot begin.
+  /// called at once: what it writes is safe when this returns. Throws std::runtime_error where the name
+  /// cannot be used; a full disk only ends the recording.
   Recorder(const std::string& folder, const WriteSettings& write_settings,
            std::size_t most_waiting_bytes = kMostWaiting_bytes);
   /// finish().

@@ -16,8 +16,27 @@ namespace {
 // A terminate handler and a signal handler can reach nothing else.
 const char* program_name = "";
 
+void end_by_exception() {
+  try {
+    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::exception& error) {
+    end_with_last_words(reason_of(error));
+  } catch (...) {
+    end_with_last_words("an unknown exception");
+  }
+  end_with_last_words("ended for an unknown reason");
+}
+
+void end_by_library(int /*signal*/) {
+  end_with_last_words(
+      "a library could not go on, for the reason above; are memory, threads or open files limited (ulimit "
+      "-a)?");
+}
+
+}  // namespace
+
 /// Without memory, locks or much patience: the terminal may be stopped, and memory gone.
-void say_and_end(const char* reason) {
+void end_with_last_words(const char* reason) {
   for (const char* text : {program_name, ": ", reason, "\n"}) {
     constexpr int kPatience_ms = 500;
     pollfd waiting{STDERR_FILENO, POLLOUT, 0};
@@ -26,25 +45,6 @@ void say_and_end(const char* reason) {
   }
   ::_exit(kFailed);
 }
-
-void end_by_exception() {
-  try {
-    if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
-  } catch (const std::exception& error) {
-    say_and_end(reason_of(error));
-  } catch (...) {
-    say_and_end("an unknown exception");
-  }
-  say_and_end("ended for an unknown reason");
-}
-
-void end_by_library(int /*signal*/) {
-  say_and_end(
-      "a library could not go on, for the reason above; are memory, threads or open files limited (ulimit "
-      "-a)?");
-}
-
-}  // namespace
 
 void leave_last_words(const char* program) {
   program_name = program;

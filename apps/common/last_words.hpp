@@ -10,6 +10,9 @@ namespace geoloc::apps {
 /// open files (GLib raises SIGTRAP). `program` must be a literal.
 void leave_last_words(const char* program);
 
+/// Says the reason as far as stderr takes it, and ends the program with exit status kFailed.
+[[noreturn]] void end_with_last_words(const char* reason);
+
 /// "not enough memory" rather than the standard's words.
 const char* reason_of(const std::exception& error);
 

@@ -88,18 +88,19 @@ void TextWriter::post(std::string text) {
 
 bool TextWriter::finish(std::chrono::milliseconds patience) {
   std::unique_lock lock(state_->mutex);
-  state_->is_closed = true;
-  state_->has_work.notify_one();
-  const bool is_done = state_->has_ended.wait_for(lock, patience, [this] { return state_->is_done; });
-  const bool is_written = is_done && !state_->has_failed;
-  lock.unlock();
-  if (!thread_.joinable()) return is_written;
-  if (is_done) {
-    thread_.join();
-  } else {
-    thread_.detach();
+  if (thread_.joinable()) {
+    state_->is_closed = true;
+    state_->has_work.notify_one();
+    state_->has_ended.wait_for(lock, patience, [this] { return state_->is_done; });
+    if (state_->is_done) {
+      lock.unlock();  // the thread still has to let go of it
+      thread_.join();
+      lock.lock();
+    } else {
+      thread_.detach();
+    }
   }
-  return is_written;
+  return state_->is_done && !state_->has_failed;
 }
 
 }  // namespace geoloc::apps

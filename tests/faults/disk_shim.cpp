@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loaded by LD_PRELOAD into the program under test; it stands between the program and its disk.
+//
 // GEOLOC_SYNCED=FOLDER: what each fsync() and fdatasync() has made safe is written there, so that the test
 // can lay out what a power cut leaves (synced_disk.py). A line of FOLDER/syncs tells the time (UTC, ns),
 // `file` or `folder`, the inode, and the name in FOLDER of a copy of the content: bytes, or lines of inode,
-// kind and name. GEOLOC_STALL=FILE: while FILE exists, writes to files of a recording and their syncs do not
-// return.
+// kind and name.
+//
+// GEOLOC_STALL=FILE: while FILE exists, writes to files of a recording and their syncs do not return.
+//
+// GEOLOC_FULL=1: the disk takes no new folder.
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -12,6 +16,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -90,6 +95,12 @@ extern "C" {
 ssize_t write(int descriptor, const void* bytes, std::size_t size) {
   stall(descriptor);
   return next<ssize_t(int, const void*, std::size_t)>("write")(descriptor, bytes, size);
+}
+
+int mkdir(const char* path, mode_t mode) {
+  if (std::getenv("GEOLOC_FULL") == nullptr) return next<int(const char*, mode_t)>("mkdir")(path, mode);
+  errno = ENOSPC;
+  return -1;
 }
 
 int fsync(int descriptor) {

@@ -2,6 +2,7 @@
 """A short simulated flight and geoloc_app, to which a test does harm."""
 import json
 import os
+import resource
 import signal
 import subprocess
 import time
@@ -23,6 +24,11 @@ def shim(**settings):
     """The environment of a program whose disk is ours (disk_shim.cpp)."""
     return {**os.environ, "LD_PRELOAD": os.environ["GEOLOC_DISK_SHIM"],
             "ASAN_OPTIONS": "verify_asan_link_order=0", **{name: str(value) for name, value in settings.items()}}
+
+
+def limit(kind, most, hard=None):
+    """For a program that is started: it may use `most` of something."""
+    return lambda: resource.setrlimit(kind, (most, most if hard is None else hard))
 
 
 def line_count(file):
