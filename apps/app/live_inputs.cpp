@@ -32,6 +32,7 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
     }
   };
   attempt([&] { inputs.config = load_config(options); });
+  attempt([&] { check_outputs(files_of(options.outputs), inputs_of(options)); });
   attempt([&] {
     if (!options.truth_file.empty()) inputs.truth = io::read_truth(options.truth_file);
   });

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/output_files.hpp"
 #include "common/outputs.hpp"
 
 namespace geoloc::apps {
@@ -26,6 +27,9 @@ struct OutputOptions {
 
 /// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http.
 void add_output_options(CLI::App& program, OutputOptions& options);
+
+/// Those of them that are files, for check_outputs().
+NamedFiles files_of(const OutputOptions& options);
 
 /// A sink for each, but for the live page (open_live_page()). Throws std::invalid_argument for a target that
 /// is none.

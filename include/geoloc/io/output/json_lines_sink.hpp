@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "geoloc/io/output/json_lines.hpp"
 #include "geoloc/io/output/sink.hpp"
+#include "geoloc/io/output_place.hpp"
+#include "geoloc/io/output_stream.hpp"
 
 namespace geoloc::io {
 
-/// Writes JSON Lines to standard output ("-"), to a pipe or device, or to a file, which is called
+/// Writes JSON Lines to standard output ("-"), to a pipe, device or socket, or to a file, which is called
 /// FILE.partial until it is complete. After a failed write nothing more is written, because half a line would
 /// spoil the next one.
 class JsonLinesSink final : public Sink {
  public:
   explicit JsonLinesSink(std::string target);
-  ~JsonLinesSink() override;
-  JsonLinesSink(const JsonLinesSink&) = delete;
-  JsonLinesSink& operator=(const JsonLinesSink&) = delete;
 
   std::string name() const override { return "--jsonl " + target_; }
   void on_frame(const OutputFrame& frame) override { write(lines_.frame(frame)); }
@@ -25,13 +25,16 @@ class JsonLinesSink final : public Sink {
   void on_end() override;
 
  private:
-  void open();
+  OutputStream open() const;
   void write(const std::string& lines);
   [[noreturn]] void fail(int error);
 
+  bool is_file() const { return target_ != "-" && place_.is_file; }
+  std::string partial_name() const { return place_.path.string() + ".partial"; }
+
   std::string target_;
-  std::string partial_;  // the file's name while it is written; empty for streams
-  int descriptor_ = -1;
+  OutputPlace place_;
+  std::optional<OutputStream> stream_;
   bool has_failed_ = false;
   JsonLines lines_;
   std::string last_lines_;
