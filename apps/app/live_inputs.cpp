@@ -37,6 +37,7 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
     inputs.config = std::move(loaded.config);
     inputs.remarks = std::move(loaded.remarks);
   });
+  attempt([&] { check_outputs(files_of(options.outputs), inputs_of(options)); });
   attempt([&] {
     if (!options.truth_file.empty()) inputs.truth = io::read_truth(options.truth_file);
   });

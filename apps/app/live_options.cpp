@@ -24,6 +24,14 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add_output_options(program, options.outputs);
 }
 
+NamedFiles inputs_of(const LiveOptions& options) {
+  NamedFiles files = joined({files_of_config(options.config_file), files_of(options.detector),
+                             files_of(options.priors), files_of(options.ground)});
+  add_named(files, "--video", options.video_file);
+  add_named(files, "--truth", options.truth_file);
+  return files;
+}
+
 LoadedConfig load_config(const LiveOptions& options) {
   LoadedConfig loaded;
   LiveConfig& config = loaded.config;

@@ -31,6 +31,9 @@ struct LiveOptions {
 
 void add_live_options(CLI::App& program, LiveOptions& options);
 
+/// Every file that a run reads, for check_outputs(). Throws std::runtime_error as load_config().
+NamedFiles inputs_of(const LiveOptions& options);
+
 struct LoadedConfig {
   LiveConfig config;
   std::string remarks;  ///< what the user should know of it; may be empty

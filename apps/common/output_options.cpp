@@ -49,6 +49,19 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
       ->group("Outputs");
 }
 
+NamedFiles files_of(const OutputOptions& options) {
+  NamedFiles files;
+  add_named(files, "--out", options.objects);
+  add_named(files, "--raw", options.raw);
+  add_named(files, "--csv", options.csv);
+  add_named(files, "--kml", options.kml);
+  add_named(files, "--picture", options.picture);
+  for (const std::string& target : options.jsonl) {
+    if (target != "-") add_named(files, "--jsonl", target);
+  }
+  return files;
+}
+
 void add_sinks(const OutputOptions& options, const EstimationConfig& config, io::OldFile old_files,
                Outputs& outputs) {
   const auto add = [&](const char* option, const std::string& file, io::FileSink::Render render) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/output_files.hpp"
 #include "common/outputs.hpp"
 #include "geoloc/io/output/result_file.hpp"
 
@@ -27,6 +28,9 @@ struct OutputOptions {
 
 /// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http.
 void add_output_options(CLI::App& program, OutputOptions& options);
+
+/// Those of them that are files, for check_outputs().
+NamedFiles files_of(const OutputOptions& options);
 
 /// A sink for each, but for the live page (open_live_page()). `old_files`: of the names that are in use.
 /// Throws std::invalid_argument for a target that is none.

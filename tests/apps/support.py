@@ -55,6 +55,10 @@ class Live:
             self._said_more.notify_all()
 
     @property
+    def process_id(self):
+        return self._process.pid
+
+    @property
     def lines(self):
         with self._said_more:
             return [line for line in self._lines if line is not None]

@@ -5,11 +5,12 @@
 
 #include "geoloc/io/atomic_file.hpp"
 #include "geoloc/io/kept_file.hpp"
+#include "geoloc/io/output_place.hpp"
 
 namespace geoloc::io {
 
 void keep_and_tell(const std::filesystem::path& file, const TellUser& tell) {
-  if (const auto kept = keep_beside(file))
+  if (const auto kept = keep_beside(output_place(file).path))
     tell(file.string() + ": the file of an earlier run is kept as " + kept->filename().string());
 }
 
