@@ -173,6 +173,7 @@ int main(int argc, char** argv) {
   const io::RunRecord record = program->record();
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
+  tell_all(library_words->take(), console);
   console.say(record.summary);
   const bool is_shown = !options.outputs.wants_table() || show_table(record, console);
   const bool has_failed = program->outputs.has_failed() || program->recorder->has_failed() || !is_shown;

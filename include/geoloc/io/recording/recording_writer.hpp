@@ -13,8 +13,8 @@
 
 namespace geoloc::io {
 
-/// What to do where a recording of that name exists, or is being written, or was cut off. A folder of anything
-/// else is always refused.
+/// What to do where a recording of that name exists, or is being written, or was cut off. A folder of
+/// anything else is always refused.
 enum class NameTaken {
   kRefuse,  ///< throw
   kNumber   ///< take the first free one of `<folder>-2`, `<folder>-3`, …
