@@ -16,7 +16,7 @@ class HangUp(FaultTest):
         for _ in range(2):  # the kernel's and the shell's
             app.send_signal(signal.SIGHUP)
         self.assertEqual(app.wait(PATIENCE_S), 0)
-        self.assertGreater(self.frames_recorded(), 20)
+        self.assertGreater(self.frames_recorded(), 5)
         self.assertTrue((self.recording / "frames.jsonl").exists(), "the recording is complete")
 
     def test_nohup_is_respected(self):

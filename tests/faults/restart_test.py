@@ -32,7 +32,7 @@ class Restart(FaultTest):
         partial = self.recording.with_name("recording.partial")
         flight = {"recording": tree(partial), "objects": self.objects_file.read_bytes(),
                   "csv": (self.folder / "objects.csv").read_bytes(), "jsonl": (self.folder / "run.jsonl.partial").read_bytes()}
-        self.assertGreater(flight["jsonl"].count(b'"frame"'), 20)
+        self.assertGreater(flight["jsonl"].count(b'"frame"'), 5)
 
         for restart in (1, 2):  # without a flight
             app = self.start_all(stderr=subprocess.PIPE, text=True)
@@ -62,7 +62,7 @@ class Restart(FaultTest):
         for app in apps:
             self.assertEqual(self.interrupt(app)[0], 0)
         for name in ("recording", "recording-2"):
-            self.assertGreater(self.frames_recorded(self.folder / name), 20)
+            self.assertGreater(self.frames_recorded(self.folder / name), 5)
             self.assert_replays(self.folder / name)
 
     def test_a_run_that_cannot_begin_leaves_everything_as_it_was(self):

@@ -32,7 +32,7 @@ class StoppedTerminal(FaultTest):
         ended, took_s = self.interrupt(app)
         self.assertEqual(ended, status)
         self.assertLess(took_s, MOST_TO_END_S)
-        self.assertGreater(self.frames_recorded(), 20)
+        self.assertGreater(self.frames_recorded(), 5)
         self.assertTrue((self.recording / "frames.jsonl").exists(), "the recording is complete")
         self.assertTrue(self.features())
 
