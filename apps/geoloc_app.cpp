@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Live: telemetry by MAVLink and a camera's frames in, geographic coordinates of objects out.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -12,15 +14,20 @@
 #include "app/live_status.hpp"
 #include "app/page_pictures.hpp"
 #include "app/recorder.hpp"
+#include "app/resources.hpp"
 #include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
+#include "common/last_words.hpp"
 #include "common/live_page_output.hpp"
+#include "common/message_box.hpp"
 #include "common/objects_table.hpp"
 #include "common/output_options.hpp"
 #include "common/outputs.hpp"
 #include "common/periodic.hpp"
 #include "common/run_record.hpp"
 #include "common/stop_signal.hpp"
+#include "common/text_writer.hpp"
+#include "geoloc/io/video/library_messages.hpp"
 
 namespace {
 
@@ -30,30 +37,31 @@ using namespace geoloc::apps;
 constexpr auto kStatusPeriod = std::chrono::seconds{1};
 /// Files are written anew so often, so that a power cut costs seconds.
 constexpr auto kFilePeriod = std::chrono::seconds{5};
+constexpr auto kTablePatience = std::chrono::seconds{5};
 
 /// Everything that can be wrong with arguments, files, model and port is found while this is made.
 struct Program {
   explicit Program(const LiveOptions& given)
       : options(given),
         inputs(open_inputs(given, clock)),
-        recorder(given.record_folder),
         reports(inputs.config.estimation, inputs.detector->class_names()),
         session(inputs.config.estimation,
                 [this](HostTime received_at, const std::uint8_t* frame, std::size_t size) {
-                  recorder.write(
-                      [&](io::RecordingWriter& writer) { writer.add_telemetry(received_at, frame, size); });
+                  recorder->add_telemetry(received_at, frame, size);
                   reports.on_telemetry(frame, size);
                 }),
         outputs(inputs.detector->class_names(), {}) {
-    add_sinks(given.outputs, inputs.config.estimation, outputs);
+    add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
     page = open_live_page(given.outputs.http, inputs.config.estimation.live_page, {source(), true},
                           inputs.detector->class_names(), outputs);
-    recorder.write([this](io::RecordingWriter& writer) {
-      writer.write_camera(inputs.config.estimation.geolocator.camera);
-      writer.write_config(live_to_json(inputs.config).dump(2));
-      writer.write_class_names(inputs.detector->class_names());
-      if (!inputs.truth.empty()) writer.write_truth(inputs.truth);
-    });
+    recorder.emplace(given.record_folder, [this](io::RecordingWriter& writer) { write_settings(writer); });
+  }
+
+  void write_settings(io::RecordingWriter& writer) const {
+    writer.write_camera(inputs.config.estimation.geolocator.camera);
+    writer.write_config(live_to_json(inputs.config).dump(2));
+    writer.write_class_names(inputs.detector->class_names());
+    if (!inputs.truth.empty()) writer.write_truth(inputs.truth);
   }
 
   /// For people; the stream's address may hold a password.
@@ -66,11 +74,11 @@ struct Program {
   LiveOptions options;
   io::HostClock clock;
   LiveInputs inputs;
-  Recorder recorder;
   VehicleReports reports;
   Session session;
   Outputs outputs;
   std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
+  std::optional<Recorder> recorder;    ///< made last: a run that cannot begin leaves no folder
 };
 
 void tell_all(const std::vector<std::string>& messages, Console& console) {
@@ -78,7 +86,8 @@ void tell_all(const std::vector<std::string>& messages, Console& console) {
 }
 
 /// Until the video ends or the user has enough.
-void run_until_stopped(Program& program, Console& console, const StopSignal& stop) {
+void run_until_stopped(Program& program, MessageBox& library_words, Console& console,
+                       const StopSignal& stop) {
   const LiveInputs& inputs = program.inputs;
   std::optional<PagePictures> pictures;
   DetectionWorker::OnDetected on_detected;
@@ -90,7 +99,7 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
   }
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
-  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.reports, program.clock,
+  LiveRun run(program.session, *inputs.socket, worker, *program.recorder, program.reports, program.clock,
               [&program](const PendingFrame& frame, bool is_located) {
                 program.outputs.post_frame(program.session, frame, is_located);
               });
@@ -101,7 +110,9 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
     const HostTime now = program.clock.now();
     if (status.is_due(now)) {
       const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
+      tell_all(library_words.take(), console);
       tell_all(program.outputs.take_messages(), console);
+      tell_all(program.recorder->take_messages(), console);
       tell_all(program.session.take_news(), console);
       console.update(state);
       program.outputs.post_status(state);
@@ -110,40 +121,61 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
   }
 }
 
+/// False where stdout does not take it.
+bool show_table(const io::RunRecord& record, Console& console) {
+  TextWriter table(STDOUT_FILENO);
+  table.post(objects_to_table(record.objects));
+  const bool is_shown = table.finish(kTablePatience);
+  if (!is_shown) console.say("geoloc_app: stdout does not take the table of objects; name a file with --out");
+  return is_shown;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  leave_last_words("geoloc_app");
+  take_write_signals_as_errors();
   CLI::App cli("Finds ground objects in a drone's live video and gives their coordinates.", "geoloc_app");
   LiveOptions options;
   add_live_options(cli, options);
   if (const auto status = parse(cli, argc, argv)) return *status;
 
+  const auto library_words = std::make_shared<MessageBox>();
+  io::take_library_messages([library_words](const std::string& message, bool is_fatal) {
+    if (is_fatal) end_with_last_words(message.c_str());
+    library_words->post(message);
+  });
   std::unique_ptr<Program> program;
   const auto unusable = guard("geoloc_app", kUnusable, [&] {
     if (options.print_settings) {
       std::fputs(live_settings_table().c_str(), stdout);
     } else if (options.print_config) {
-      std::puts(live_to_json(load_config(options)).dump(2).c_str());
+      std::puts(live_to_json(load_config(options).config).dump(2).c_str());
     } else {
+      require_resources();
       program = std::make_unique<Program>(options);
     }
   });
+  Console console;
+  tell_all(library_words->take(), console);
   if (unusable) return *unusable;
   if (!program) return kDone;
 
   const StopSignal stop;
-  Console console;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
+  if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->page) console.say("page: " + program->page->url());
-  run_until_stopped(*program, console, stop);
+  run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
 
-  program->recorder.finish();
+  program->recorder->finish();
+  tell_all(program->recorder->take_messages(), console);
   const io::RunRecord record = program->record();
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
+  tell_all(library_words->take(), console);
   console.say(record.summary);
-  if (options.outputs.wants_table()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
-  const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed();
+  const bool is_shown = !options.outputs.wants_table() || show_table(record, console);
+  const bool has_failed = program->outputs.has_failed() || program->recorder->has_failed() || !is_shown;
   return has_failed ? kFailed : kDone;
 }

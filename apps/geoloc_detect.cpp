@@ -76,7 +76,9 @@ struct Program {
       refuse_problems(options.config_file, problems);
     }
     detector = io::open_detector(detector_files(options.detector), detection_of(options, config.detection));
-    results = std::make_unique<ResultWriter>(options.places, inputs, detector->class_names());
+    results = std::make_unique<ResultWriter>(
+        options.places, inputs, joined({files_of_config(options.config_file), files_of(options.detector)}),
+        detector->class_names());
   }
 
   std::vector<DetectInput> inputs;

@@ -174,6 +174,9 @@ int main(int argc, char** argv) {
   std::vector<Sweep> sweeps;
   const auto unusable = guard("geoloc_eval", kUnusable, [&] {
     experiment = make_experiment(options);
+    if (!options.report_folder.empty())
+      check_report_folder(options.report_folder,
+                          joined({files_of_config(options.config_file), files_of(options.detector)}));
     if (!options.sweep.empty()) sweeps = find_sweeps(options.sweep);
     if (options.is_rendered) {
       sim::load_flight(experiment.flights_folder, options.rendered.flight);  // refuses an unknown one

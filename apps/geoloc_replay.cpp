@@ -78,6 +78,15 @@ EstimationConfig choose_config(const Options& options, const io::Recording* reco
   return config;
 }
 
+/// Every file that a replay reads.
+NamedFiles inputs_of(const Options& options) {
+  NamedFiles files =
+      joined({files_of_config(options.config_file), files_of(options.priors), files_of(options.ground)});
+  if (!options.recording.empty()) files = joined({files, files_of_recording(options.recording)});
+  add_named(files, "--truth", options.truth_file);
+  return files;
+}
+
 void add_options(CLI::App& program, Options& options) {
   program.add_option("recording", options.recording, "Folder of a recording")->type_name("RECORDING");
   program.add_option("--method", options.method, "joint, or paper")->type_name("NAME");
@@ -106,7 +115,7 @@ struct Program {
         session(config),
         // A replay is faster than its sinks, so it waits for them.
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
-    add_sinks(options.outputs, config, outputs);
+    add_sinks(options.outputs, config, io::OldFile::kReplace, outputs);
     page = open_live_page(options.outputs.http, config.live_page, {options.recording, false},
                           recording.class_names, outputs);
   }
@@ -134,6 +143,7 @@ std::unique_ptr<Program> make_program(const Options& options) {
                                    options.keep_going ? io::BadLines::kSkip : io::BadLines::kRefuse);
   }
   const EstimationConfig config = choose_config(options, recording ? &*recording : nullptr);
+  check_outputs(files_of(options.outputs), inputs_of(options));
   if (options.print_config) {
     std::puts(estimation_to_json(config).dump(2).c_str());
     return nullptr;

@@ -40,6 +40,9 @@ foreach(_program IN ITEMS geoloc_app geoloc_detect geoloc_eval geoloc_replay geo
     install(TARGETS ${_program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   endif()
 endforeach()
+if(TARGET geoloc_app)
+  install(FILES "${PROJECT_SOURCE_DIR}/packaging/geoloc.service" DESTINATION lib/systemd/system)
+endif()
 if(GEOLOC_BUILD_APPS)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/models" "${PROJECT_SOURCE_DIR}/data/flights"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/geoloc")

@@ -5,14 +5,13 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <cstdio>
-
 #include "geoloc/io/output/text.hpp"
 
 namespace geoloc::apps {
 namespace {
 
 constexpr auto kReminderPeriod = std::chrono::seconds{30};
+constexpr const char* kClearLine = "\r\033[K";
 
 /// What matters most comes first: a narrow terminal shows the beginning.
 std::string status_line(const io::LiveStatus& status) {
@@ -35,10 +34,10 @@ std::size_t terminal_width() {
 
 }  // namespace
 
-Console::Console() : is_terminal_(::isatty(STDERR_FILENO) == 1) {}
+Console::Console() : stderr_(STDERR_FILENO), is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void Console::say(const std::string& message) {
-  std::fprintf(stderr, "%s%s\n", line_is_open_ ? "\r\033[K" : "", message.c_str());
+  stderr_.post((line_is_open_ ? kClearLine : "") + message + "\n");
   line_is_open_ = false;
 }
 
@@ -55,12 +54,7 @@ void Console::update(const io::LiveStatus& status) {
   tell(clock_, status.at, status.clock, false);
   tell(warning_, status.at, status.warning, true);
   const std::string line = status_line(status);
-  if (is_terminal_) {
-    std::fprintf(stderr, "\r\033[K%s", line.substr(0, terminal_width() - 1).c_str());
-  } else {
-    std::fprintf(stderr, "%s\n", line.c_str());
-  }
-  std::fflush(stderr);
+  stderr_.post(is_terminal_ ? kClearLine + line.substr(0, terminal_width() - 1) : line + "\n");
   line_is_open_ = is_terminal_;
 }
 

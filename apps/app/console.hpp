@@ -3,12 +3,13 @@
 
 #include <string>
 
+#include "common/text_writer.hpp"
 #include "geoloc/io/output/live_status.hpp"
 
 namespace geoloc::apps {
 
 /// What a person sees of a live run on stderr: a status line, and a message when the link or the video
-/// changes its state, repeated at intervals while it is bad.
+/// changes its state, repeated at intervals while it is bad. No call waits for a terminal that is stopped.
 class Console {
  public:
   Console();
@@ -27,6 +28,7 @@ class Console {
 
   void tell(Topic& topic, HostTime now, const std::string& message, bool is_bad);
 
+  TextWriter stderr_;
   bool is_terminal_;
   bool line_is_open_ = false;
   Topic video_;

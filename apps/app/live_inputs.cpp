@@ -2,6 +2,7 @@
 #include "app/live_inputs.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "geoloc/io/recording/recording_reader.hpp"
 #include "geoloc/io/video/file_source.hpp"
@@ -31,7 +32,12 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
       faults += (faults.empty() ? "" : "\n") + std::string(error.what());
     }
   };
-  attempt([&] { inputs.config = load_config(options); });
+  attempt([&] {
+    LoadedConfig loaded = load_config(options);
+    inputs.config = std::move(loaded.config);
+    inputs.remarks = std::move(loaded.remarks);
+  });
+  attempt([&] { check_outputs(files_of(options.outputs), inputs_of(options)); });
   attempt([&] {
     if (!options.truth_file.empty()) inputs.truth = io::read_truth(options.truth_file);
   });

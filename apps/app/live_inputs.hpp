@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "app/live_options.hpp"
@@ -16,6 +17,7 @@ namespace geoloc::apps {
 /// What a run is made of.
 struct LiveInputs {
   LiveConfig config;
+  std::string remarks;  ///< on the configuration, for the user; may be empty
   std::vector<io::TrueTarget> truth;
   std::unique_ptr<io::Detector> detector;
   std::unique_ptr<io::UdpSocket> socket;

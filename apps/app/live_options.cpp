@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_options.hpp"
 
-#include <cstdio>
-
 namespace geoloc::apps {
 
 void add_live_options(CLI::App& program, LiveOptions& options) {
@@ -26,8 +24,17 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   add_output_options(program, options.outputs);
 }
 
-LiveConfig load_config(const LiveOptions& options) {
-  LiveConfig config;
+NamedFiles inputs_of(const LiveOptions& options) {
+  NamedFiles files = joined({files_of_config(options.config_file), files_of(options.detector),
+                             files_of(options.priors), files_of(options.ground)});
+  add_named(files, "--video", options.video_file);
+  add_named(files, "--truth", options.truth_file);
+  return files;
+}
+
+LoadedConfig load_config(const LiveOptions& options) {
+  LoadedConfig loaded;
+  LiveConfig& config = loaded.config;
   const auto apply = [&config](const nlohmann::json& document, const std::string& name) {
     std::vector<std::string> problems;
     live_from_json(document, config, problems);
@@ -36,11 +43,9 @@ LiveConfig load_config(const LiveOptions& options) {
   if (!options.config_file.empty()) apply(read_config_document(options.config_file), options.config_file);
   if (!options.method.empty()) apply({{"method", options.method}}, "--method");
   apply_priors(options.priors, config.estimation.geolocator);
-  if (const std::string remarks = apply_ground(options.ground, config.estimation.geolocator);
-      !remarks.empty())
-    std::fprintf(stderr, "%s\n", remarks.c_str());
+  loaded.remarks = apply_ground(options.ground, config.estimation.geolocator);
   config.detection = with_backend(options.detector, config.detection);
-  return config;
+  return loaded;
 }
 
 }  // namespace geoloc::apps

@@ -31,7 +31,15 @@ struct LiveOptions {
 
 void add_live_options(CLI::App& program, LiveOptions& options);
 
+/// Every file that a run reads, for check_outputs(). Throws std::runtime_error as load_config().
+NamedFiles inputs_of(const LiveOptions& options);
+
+struct LoadedConfig {
+  LiveConfig config;
+  std::string remarks;  ///< what the user should know of it; may be empty
+};
+
 /// The configuration file under the options. Throws std::runtime_error listing every fault.
-LiveConfig load_config(const LiveOptions& options);
+LoadedConfig load_config(const LiveOptions& options);
 
 }  // namespace geoloc::apps

@@ -71,10 +71,8 @@ void LiveRun::process_ready() {
 
 void LiveRun::process(const WaitingFrame& waiting) {
   const DetectedFrame& frame = waiting.detected;
-  recorder_.write([&](io::RecordingWriter& writer) {
-    writer.add_frame({frame.captured_at, frame.detections, recorder_.telemetry_records(),
-                      waiting.time_sigma_s, io::to_string(frame.time_quality)});
-  });
+  recorder_.add_frame({frame.captured_at, frame.detections, recorder_.telemetry_records(),
+                       waiting.time_sigma_s, io::to_string(frame.time_quality)});
   const PendingFrame pending{frame.captured_at, frame.detections, waiting.time_sigma_s};
   const bool is_located = session_.process(pending);
   if (is_located) stats_.latency_s.add(seconds(clock_.now() - frame.captured_at));

@@ -1,39 +1,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
+#include <thread>
+#include <vector>
 
 #include "geoloc/io/recording/recording_writer.hpp"
 
 namespace geoloc::apps {
 
-/// A recording that may fail without taking the run with it: the first error ends it and is told once.
+/// Records a run without harm to it. A thread of its own writes ten times per second and makes what it wrote
+/// survive a power cut once per second, so no call waits for the disk. What comes while too much waits is
+/// left out and counted. The first error ends the recording, not the run. take_messages() tells all of that.
 class Recorder {
  public:
-  /// No recording where `folder` is empty. Throws std::runtime_error if it cannot begin.
-  explicit Recorder(const std::string& folder);
+  using WriteSettings = std::function<void(io::RecordingWriter& writer)>;
 
-  /// Calls step(writer) unless recording has ended.
-  template <typename Step>
-  void write(const Step& step) {
-    if (!writer_) return;
-    try {
-      step(*writer_);
-    } catch (const std::exception& error) {
-      give_up(error.what());
-    }
-  }
+  static constexpr std::size_t kMostWaiting_bytes = 32 << 20;  ///< minutes of a usual flight
 
-  std::uint64_t telemetry_records() const { return writer_ ? writer_->telemetry_records() : 0; }
-  bool has_failed() const { return has_failed_; }
+  /// No recording where `folder` is empty; under another name where that one is taken. `write_settings` is
+  /// called at once: what it writes is safe when this returns. Throws std::runtime_error where the name
+  /// cannot be used; a full disk only ends the recording.
+  Recorder(const std::string& folder, const WriteSettings& write_settings,
+           std::size_t most_waiting_bytes = kMostWaiting_bytes);
+  /// finish().
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  void add_telemetry(HostTime received_at, const std::uint8_t* frame, std::size_t size);
+  void add_frame(io::RecordedFrame frame);
+
+  /// Records of telemetry that were taken so far (io::RecordedFrame::telemetry_records).
+  std::uint64_t telemetry_records() const { return telemetry_records_; }
+
+  /// For the user, since the last call.
+  std::vector<std::string> take_messages();
+
+  /// Waits for the disk while it makes progress; one that makes none for ten seconds is abandoned.
   void finish();
 
- private:
-  void give_up(const char* reason);
+  /// The recording has ended early or is not whole. Final after finish().
+  bool has_failed() const;
 
-  std::optional<io::RecordingWriter> writer_;
-  bool has_failed_ = false;
+ private:
+  struct State;
+
+  std::shared_ptr<State> state_;  // the thread's too: it may outlive this object. nullptr: no recording
+  std::thread thread_;
+  std::uint64_t telemetry_records_ = 0;
 };
 
 }  // namespace geoloc::apps

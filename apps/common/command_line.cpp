@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <exception>
 
+#include "common/last_words.hpp"
+
 namespace geoloc::apps {
 
 std::optional<int> parse(CLI::App& program, int argc, char** argv) {
@@ -20,7 +22,7 @@ std::optional<int> guard(const char* program, int status, const std::function<vo
     step();
     return std::nullopt;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s: %s\n", program, error.what());
+    std::fprintf(stderr, "%s: %s\n", program, reason_of(error));
     return status;
   }
 }

@@ -36,6 +36,14 @@ io::DetectorFiles detector_files(const DetectorOptions& options) {
   return files;
 }
 
+NamedFiles files_of(const DetectorOptions& options) {
+  NamedFiles files;
+  add_named(files, "--model", options.model_file);
+  add_named(files, "--class-names", options.class_names_file);
+  if (options.second_look_file != "none") add_named(files, "--second-look", options.second_look_file);
+  return files;
+}
+
 io::DetectionConfig with_backend(const DetectorOptions& options, io::DetectionConfig config) {
   if (options.backend == "opencv") config.backend = io::Backend::kOpencv;
   if (options.backend == "openvino") config.backend = io::Backend::kOpenvino;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "common/output_files.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/detection/yolo_detector.hpp"
 
@@ -23,6 +24,9 @@ void add_detector_options(CLI::App& program, DetectorOptions& options);
 
 /// The model named, or the one that comes with geoloc. Throws std::runtime_error where that is not found.
 io::DetectorFiles detector_files(const DetectorOptions& options);
+
+/// Those files that the command line names, as inputs for check_outputs().
+NamedFiles files_of(const DetectorOptions& options);
 
 /// --backend over what the configuration says.
 io::DetectionConfig with_backend(const DetectorOptions& options, io::DetectionConfig config);

@@ -28,6 +28,15 @@ nlohmann::json read_config_document(const std::string& file) {
   }
 }
 
+NamedFiles files_of_config(const std::string& file) {
+  if (file.empty()) return {};
+  NamedFiles files{{"--config", file}};
+  const nlohmann::json document = read_config_document(file);
+  if (document.is_object() && document.contains("camera") && document["camera"].is_string())
+    add_named(files, "camera in --config", document["camera"].get<std::string>());
+  return files;
+}
+
 void refuse_problems(const std::string& file, const std::vector<std::string>& problems) {
   if (problems.empty()) return;
   std::string all;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/output_files.hpp"
 #include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
 #include "geoloc/io/output/cot_config.hpp"
@@ -35,6 +36,9 @@ void estimation_from_json(const nlohmann::json& document, const std::vector<std:
 /// The JSON document in a configuration file. Throws std::runtime_error naming the file and the place of the
 /// fault.
 nlohmann::json read_config_document(const std::string& file);
+
+/// A configuration file, if one is given, and the calibration that it names, as inputs for check_outputs().
+NamedFiles files_of_config(const std::string& file);
 
 /// Throws std::runtime_error that lists all problems of `file` unless there are none.
 void refuse_problems(const std::string& file, const std::vector<std::string>& problems);

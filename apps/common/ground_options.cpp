@@ -13,6 +13,10 @@ namespace {
 /// the camera, and objects are taken for each other.
 constexpr double kFreeShare = 0.4;
 
+bool is_file(const GroundOptions& options) {
+  return options.ground != kLevelGround && options.ground != kFreeGround;
+}
+
 }  // namespace
 
 void add_ground_options(CLI::App& program, GroundOptions& options) {
@@ -33,9 +37,13 @@ void add_ground_sigma_option(CLI::App& program, GroundOptions& options) {
       ->type_name("X");
 }
 
+NamedFiles files_of(const GroundOptions& options) {
+  return is_file(options) ? NamedFiles{{"--ground", options.ground}} : NamedFiles{};
+}
+
 std::string apply_ground(const GroundOptions& options, GeolocatorConfig& config) {
   apply_ground_sigma(options, config);
-  if (options.ground == kLevelGround || options.ground == kFreeGround) return {};
+  if (!is_file(options)) return {};
   io::Dem dem = io::read_dem(options.ground);
   config.terrain = std::move(dem.heights);
   return "ground: " + dem.remarks;

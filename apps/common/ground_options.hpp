@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "common/output_files.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 
 namespace geoloc::apps {
@@ -21,6 +22,9 @@ struct GroundOptions {
 /// --ground, --ground-sigma-m.
 void add_ground_options(CLI::App& program, GroundOptions& options);
 void add_ground_sigma_option(CLI::App& program, GroundOptions& options);
+
+/// The elevation model, if there is one, as an input for check_outputs().
+NamedFiles files_of(const GroundOptions& options);
 
 /// The ground over `config`; of a file, what is to be told the user of it. Throws std::runtime_error naming
 /// the file or the option and the reason.

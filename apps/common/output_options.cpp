@@ -49,16 +49,33 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
       ->group("Outputs");
 }
 
-void add_sinks(const OutputOptions& options, const EstimationConfig& config, Outputs& outputs) {
-  const auto add = [&outputs](const char* option, const std::string& file, io::FileSink::Render render) {
-    if (!file.empty()) outputs.add(std::make_unique<io::FileSink>(option, file, std::move(render)));
+NamedFiles files_of(const OutputOptions& options) {
+  NamedFiles files;
+  add_named(files, "--out", options.objects);
+  add_named(files, "--raw", options.raw);
+  add_named(files, "--csv", options.csv);
+  add_named(files, "--kml", options.kml);
+  add_named(files, "--picture", options.picture);
+  for (const std::string& target : options.jsonl) {
+    if (target != "-") add_named(files, "--jsonl", target);
+  }
+  return files;
+}
+
+void add_sinks(const OutputOptions& options, const EstimationConfig& config, io::OldFile old_files,
+               Outputs& outputs) {
+  const auto add = [&](const char* option, const std::string& file, io::FileSink::Render render) {
+    if (file.empty()) return;
+    outputs.add(std::make_unique<io::FileSink>(option, io::ResultFile(file, old_files, outputs.teller()),
+                                               std::move(render)));
   };
   add("--out", options.objects,
       [](const io::RunRecord& run) { return io::objects_to_geojson(run.objects, run.estimator); });
   add("--raw", options.raw, raw_csv);
   add("--csv", options.csv, [](const io::RunRecord& run) { return io::objects_to_csv(run.objects); });
   add("--kml", options.kml, io::run_to_kml);
-  for (const std::string& target : options.jsonl) outputs.add(std::make_unique<io::JsonLinesSink>(target));
+  for (const std::string& target : options.jsonl)
+    outputs.add(std::make_unique<io::JsonLinesSink>(target, old_files, outputs.teller()));
   for (const std::string& target : options.cot)
     outputs.add(std::make_unique<io::CotSink>(target, config.cot, outputs.teller()));
   add("--picture", options.picture, [](const io::RunRecord& run) { return io::to_svg(io::picture_of(run)); });

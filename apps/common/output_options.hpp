@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "common/output_files.hpp"
 #include "common/outputs.hpp"
+#include "geoloc/io/output/result_file.hpp"
 
 namespace geoloc::apps {
 
@@ -27,8 +29,12 @@ struct OutputOptions {
 /// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
-/// A sink for each, but for the live page (open_live_page()). Throws std::invalid_argument for a target that
-/// is none.
-void add_sinks(const OutputOptions& options, const EstimationConfig& config, Outputs& outputs);
+/// Those of them that are files, for check_outputs().
+NamedFiles files_of(const OutputOptions& options);
+
+/// A sink for each, but for the live page (open_live_page()). `old_files`: of the names that are in use.
+/// Throws std::invalid_argument for a target that is none.
+void add_sinks(const OutputOptions& options, const EstimationConfig& config, io::OldFile old_files,
+               Outputs& outputs);
 
 }  // namespace geoloc::apps

@@ -20,6 +20,13 @@ void add_prior_options(CLI::App& program, PriorFiles& files) {
       ->type_name("FILE");
 }
 
+NamedFiles files_of(const PriorFiles& files) {
+  NamedFiles inputs;
+  add_named(inputs, "--known-points", files.known_points);
+  add_named(inputs, "--calibration", files.calibration);
+  return inputs;
+}
+
 void apply_priors(const PriorFiles& files, GeolocatorConfig& config) {
   if (!files.known_points.empty()) {
     if (config.method != Method::kJoint)

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "common/output_files.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 
 namespace geoloc::apps {
@@ -16,6 +17,9 @@ struct PriorFiles {
 
 /// --known-points, --calibration.
 void add_prior_options(CLI::App& program, PriorFiles& files);
+
+/// Those given, as inputs for check_outputs().
+NamedFiles files_of(const PriorFiles& files);
 
 /// Reads them over `config`. Throws std::runtime_error naming the file and the reason.
 void apply_priors(const PriorFiles& files, GeolocatorConfig& config);

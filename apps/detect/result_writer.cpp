@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
@@ -45,6 +44,22 @@ void check_drawn_names(const fs::path& folder, const std::vector<DetectInput>& i
   }
 }
 
+NamedFiles files_of(const ResultWriter::Places& places, const std::vector<DetectInput>& inputs) {
+  NamedFiles files;
+  if (places.json != "-") add_named(files, "--json", places.json);
+  for (const DetectInput& input : inputs) {
+    if (!places.draw.empty())
+      files.push_back({"--draw", fs::path(places.draw) / drawn_name(input.file, input.is_video)});
+  }
+  return files;
+}
+
+NamedFiles files_of(const std::vector<DetectInput>& inputs) {
+  NamedFiles files;
+  for (const DetectInput& input : inputs) files.push_back({"INPUT", input.file});
+  return files;
+}
+
 std::string line_for_a_person(const SeenPicture& picture, const std::vector<Detection>& detections,
                               const std::vector<std::string>& class_names) {
   std::string line = picture.file.string();
@@ -64,7 +79,7 @@ std::string line_for_a_person(const SeenPicture& picture, const std::vector<Dete
 }  // namespace
 
 ResultWriter::ResultWriter(Places places, const std::vector<DetectInput>& inputs,
-                           std::vector<std::string> class_names)
+                           const NamedFiles& other_inputs, std::vector<std::string> class_names)
     : places_(std::move(places)), class_names_(std::move(class_names)) {
   if (!places_.draw.empty()) {
     check_drawn_names(places_.draw, inputs);
@@ -72,11 +87,10 @@ ResultWriter::ResultWriter(Places places, const std::vector<DetectInput>& inputs
     fs::create_directories(places_.draw, error);
     if (error) io::fail_to_write(places_.draw, error.value());
   }
+  check_outputs(files_of(places_, inputs), joined({other_inputs, files_of(inputs)}));
   if (!places_.json.empty() && places_.json != "-") {
     partial_json_.emplace(places_.json);
-    errno = 0;
-    json_.open(partial_json_->name(), std::ios::binary | std::ios::trunc);
-    if (!json_) io::fail_to_write(places_.json, errno);
+    io::write_to(places_.json, [this] { json_.emplace(partial_json_->open()); });
   }
 }
 
@@ -113,9 +127,7 @@ void ResultWriter::write_json(const SeenPicture& picture, const std::vector<Dete
     std::fputs(text.c_str(), stdout);
     return;
   }
-  errno = 0;
-  json_ << text;
-  if (!json_) io::fail_to_write(places_.json, errno);
+  io::write_to(places_.json, [&] { json_->write(text); });
 }
 
 void ResultWriter::draw(const SeenPicture& picture) {
@@ -141,9 +153,7 @@ void ResultWriter::finish_video() {
 
 void ResultWriter::finish() {
   if (!partial_json_) return;
-  errno = 0;
-  json_.close();
-  if (!json_) io::fail_to_write(places_.json, errno);
+  io::write_to(places_.json, [this] { json_->close(); });
   partial_json_->commit();
 }
 

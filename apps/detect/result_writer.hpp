@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/output_files.hpp"
 #include "detect/inputs.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/io/partial_file.hpp"
@@ -35,8 +35,10 @@ class ResultWriter {
     std::string draw;  ///< a folder, or empty
   };
 
-  /// Throws also where drawn pictures would take the place of inputs or of one another.
-  ResultWriter(Places places, const std::vector<DetectInput>& inputs, std::vector<std::string> class_names);
+  /// `other_inputs`: files read besides the pictures. Throws also where results would take the place of
+  /// inputs or of one another.
+  ResultWriter(Places places, const std::vector<DetectInput>& inputs, const NamedFiles& other_inputs,
+               std::vector<std::string> class_names);
 
   /// Draws into the picture.
   void add(SeenPicture& picture, const std::vector<Detection>& detections);
@@ -55,7 +57,7 @@ class ResultWriter {
   Places places_;
   std::vector<std::string> class_names_;
   std::optional<io::PartialFile> partial_json_;
-  std::ofstream json_;
+  std::optional<io::OutputStream> json_;
   std::unique_ptr<io::VideoFile> video_;
 };
 

@@ -72,6 +72,7 @@ void detect_part(const sim::Flight& flight, const RenderedSettings& settings, st
 void record(const std::filesystem::path& folder, const sim::Flight& flight,
             const RenderedScenario& scenario) {
   std::filesystem::remove_all(folder);
+  std::filesystem::remove_all(folder.string() + ".partial");
   io::RecordingWriter writer(folder);
   writer.write_camera(sim::nominal_camera(scenario.settings.run));
   writer.write_truth(sim::true_targets(sim::standing_on({}, scenario.targets_in_enu), flight.truth.frame()));

@@ -13,6 +13,10 @@
 namespace geoloc::apps {
 namespace {
 
+constexpr const char* kPage = "report.html";
+constexpr const char* kTables = "report.md";
+constexpr const char* kData = "report.json";
+
 /// Empty for an empty text.
 std::string named_block(const char* name, const std::string& text) {
   return text.empty() ? "" : fmt::format("<!-- begin {0} -->\n{1}<!-- end {0} -->\n", name, text);
@@ -33,11 +37,19 @@ std::string to_markdown(const EvalResults& results) {
          named_block("rendered", rendered_to_markdown(results.rendered));
 }
 
+void check_report_folder(const std::filesystem::path& folder, const NamedFiles& inputs) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) io::fail_to_write(folder, error.value());
+  refuse_recording("--report", folder);
+  check_outputs({{"--report", folder / kPage}, {"--report", folder / kTables}, {"--report", folder / kData}},
+                inputs);
+}
+
 void write_report(const std::filesystem::path& folder, const EvalResults& results) {
-  std::filesystem::create_directories(folder);
-  io::write_file_atomically(folder / "report.html", to_html(results));
-  io::write_file_atomically(folder / "report.md", to_markdown(results));
-  io::write_file_atomically(folder / "report.json", to_json_text(results));
+  io::write_file_atomically(folder / kPage, to_html(results));
+  io::write_file_atomically(folder / kTables, to_markdown(results));
+  io::write_file_atomically(folder / kData, to_json_text(results));
   for (const NamedChart& named : run_charts(results))
     io::write_file_atomically(folder / (named.name + ".svg"), to_svg_file(named.chart));
   for (const SweepResult& result : results.sweeps) {

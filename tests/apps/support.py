@@ -14,6 +14,7 @@ import time
 import unittest
 
 BIN = pathlib.Path(os.environ["GEOLOC_BIN_DIR"])
+SOURCE = pathlib.Path(os.environ["GEOLOC_SOURCE_DIR"])
 PATIENCE_S = 100  # how long to wait for what must come; only a slow machine needs so long
 
 Result = collections.namedtuple("Result", "status out err")
@@ -52,6 +53,10 @@ class Live:
         with self._said_more:
             self._lines.append(None)  # no more will come
             self._said_more.notify_all()
+
+    @property
+    def process_id(self):
+        return self._process.pid
 
     @property
     def lines(self):

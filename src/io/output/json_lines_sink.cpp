@@ -1,24 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/output/json_lines_sink.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
-#include <cstdio>
+#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
-#include "geoloc/io/atomic_file.hpp"
+#include "geoloc/io/sync.hpp"
 
 namespace geoloc::io {
 
-JsonLinesSink::JsonLinesSink(std::string target) : target_(std::move(target)) {}
-
-JsonLinesSink::~JsonLinesSink() {
-  if (descriptor_ > STDERR_FILENO) close(descriptor_);
-}
+JsonLinesSink::JsonLinesSink(std::string target, OldFile old_file, TellUser tell)
+    : target_(std::move(target)),
+      old_file_(old_file),
+      tell_(std::move(tell)),
+      place_(output_place(target_)) {}
 
 void JsonLinesSink::fail(int error) {
   has_failed_ = true;
@@ -27,32 +24,55 @@ void JsonLinesSink::fail(int error) {
 
 /// Called only for the first line, because a named pipe makes its writer wait for a reader.
 void JsonLinesSink::open() {
-  if (target_ == "-") {
-    descriptor_ = STDOUT_FILENO;
-    return;
+  if (is_file()) return open_partial();
+  stream_.emplace(target_ == "-" ? OutputStream::standard_output() : OutputStream::device(place_.path));
+}
+
+/// Under a name that nobody else uses: what a run that was cut off has left is all that there is of it.
+void JsonLinesSink::open_partial() {
+  for (int number = 1; !stream_; ++number) {
+    partial_ = place_.path.string() + ".partial" + (number == 1 ? "" : "-" + std::to_string(number));
+    try {
+      stream_.emplace(OutputStream::new_file(partial_));
+    } catch (const std::system_error& error) {
+      if (error.code().value() != EEXIST) throw;
+    }
   }
-  const bool is_file = is_file_or_none(target_);
-  if (is_file) partial_ = target_ + ".partial";
-  descriptor_ = ::open(is_file ? partial_.c_str() : target_.c_str(),
-                       O_WRONLY | O_CLOEXEC | (is_file ? O_CREAT | O_TRUNC : 0), 0666);
-  if (descriptor_ < 0) fail(errno);
 }
 
 void JsonLinesSink::write(const std::string& lines) {
   if (has_failed_) return;
-  if (descriptor_ < 0) open();
-  for (std::size_t done = 0; done < lines.size();) {
-    const ssize_t written = ::write(descriptor_, lines.data() + done, lines.size() - done);
-    if (written < 0 && errno != EINTR) fail(errno);
-    if (written > 0) done += static_cast<std::size_t>(written);
+  try {
+    if (!stream_) open();
+    stream_->write(lines);
+  } catch (const std::system_error& error) {
+    fail(error.code().value());
+  }
+}
+
+void JsonLinesSink::on_status(const LiveStatus& status) {
+  write(JsonLines::status(status));
+  if (has_failed_ || !is_file()) return;
+  try {
+    stream_->sync();
+  } catch (const std::system_error& error) {
+    fail(error.code().value());
   }
 }
 
 void JsonLinesSink::on_end() {
+  if (!stream_ && last_lines_.empty()) return;  // the run did not begin
   write(last_lines_);
-  if (has_failed_ || partial_.empty()) return;
-  if (close(std::exchange(descriptor_, -1)) != 0) fail(errno);
-  if (std::rename(partial_.c_str(), target_.c_str()) != 0) fail(errno);
+  if (has_failed_) return;
+  try {
+    if (is_file()) stream_->sync();
+    stream_->close();
+    if (!is_file()) return;
+    if (old_file_ == OldFile::kKeep) keep_and_tell(place_.path, tell_);
+    std::filesystem::rename(partial_, place_.path);
+  } catch (const std::system_error& error) {
+    fail(error.code().value());
+  }
 }
 
 }  // namespace geoloc::io

@@ -145,6 +145,11 @@ fs::path require_file(const fs::path& file) {
   return file;
 }
 
+/// What a power cut leaves of a file's end: a line without an end, or zeros that had not been written over.
+bool is_cut_off(const std::string& line, const std::istream& input) {
+  return input.eof() || line.find('\0') != std::string::npos;
+}
+
 }  // namespace
 
 std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& name, BadLines bad_lines,
@@ -160,7 +165,7 @@ std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& n
       }
       frames.push_back(std::move(frame));
     } catch (const std::exception& error) {
-      if (bad_lines == BadLines::kRefuse) {
+      if (bad_lines == BadLines::kRefuse && !is_cut_off(line, input)) {
         throw std::runtime_error(name + ":" + std::to_string(number) + ": " + error.what() +
                                  " (--keep-going skips bad lines)");
       }

@@ -1,35 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/recording/recording_writer.hpp"
 
-#include <array>
+#include <sys/stat.h>
+
 #include <cerrno>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/detection_fields.hpp"
-#include "geoloc/io/partial_file.hpp"
+#include "geoloc/io/sync.hpp"
+#include "geoloc/io/write_failure.hpp"
 
 namespace geoloc::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::ofstream open_for_writing(const fs::path& file) {
-  errno = 0;
-  std::ofstream output(file, std::ios::binary | std::ios::trunc);
-  if (!output) fail_to_write(file, errno);
-  return output;
+/// Makes the folder and those above it that are missing; their names survive a power cut.
+void make_folders(const fs::path& folder) {
+  if (folder.empty() || fs::is_directory(folder)) return;
+  make_folders(folder.parent_path());
+  if (::mkdir(folder.c_str(), 0777) != 0 && errno != EEXIST) fail_to_write(folder, errno);
+  sync_name(folder);
 }
 
-/// Writes and flushes at once, so that a full disk is noticed at the record it affects and a crash loses
-/// nothing.
-void write_out(std::ofstream& output, const std::string& bytes, const fs::path& file) {
-  errno = 0;
-  output.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush();
-  if (!output) fail_to_write(file, errno);
+/// False where something of that name exists: who makes it first has it.
+bool make_new_folder(const fs::path& folder) {
+  make_folders(folder.parent_path());
+  if (::mkdir(folder.c_str(), 0777) == 0) {
+    sync_name(folder);
+    return true;
+  }
+  if (errno != EEXIST) fail_to_write(folder, errno);
+  return false;
+}
+
+/// An empty folder is as good as none.
+bool is_in_use(const fs::path& name) {
+  return fs::exists(fs::symlink_status(name)) && (!fs::is_directory(name) || !fs::is_empty(name));
+}
+
+bool is_recording(const fs::path& folder) {
+  return fs::exists(folder / "telemetry.tlog") && fs::exists(folder / "frames.jsonl");
+}
+
+/// `flight`, `flight-2`, `flight-3`, …
+fs::path numbered(const fs::path& folder, int number) {
+  fs::path name = folder;
+  if (number > 1) name += "-" + std::to_string(number);
+  return name;
 }
 
 std::int64_t microseconds(HostTime time) {
@@ -49,25 +71,37 @@ nlohmann::ordered_json to_json(const RecordedFrame& frame) {
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(fs::path folder) : folder_(std::move(folder)) {
-  if (!folder_.has_filename()) folder_ = folder_.parent_path();  // a trailing slash
-  if (fs::exists(folder_) && (!fs::is_directory(folder_) || !fs::is_empty(folder_))) {
-    throw std::runtime_error(folder_.string() + ": exists already; a recording needs a new folder");
+RecordingWriter::Place RecordingWriter::make_place(fs::path folder, NameTaken name_taken) {
+  if (!folder.has_filename()) folder = folder.parent_path();  // a trailing slash
+  for (int number = 1;; ++number) {
+    Place place{numbered(folder, number), {}};
+    place.partial = place.folder;
+    place.partial += ".partial";
+    const bool is_taken = is_in_use(place.folder);
+    if (!is_taken && make_new_folder(place.partial)) return place;
+    const bool may_number = name_taken == NameTaken::kNumber;
+    if (is_taken && !(may_number && is_recording(place.folder)))
+      throw std::runtime_error(place.folder.string() + ": exists already; a recording needs a new folder");
+    if (!is_taken && !may_number)
+      throw std::runtime_error(place.partial.string() +
+                               ": exists already, from a run that goes on or was cut off; name another "
+                               "folder, or move it away");
   }
-  partial_ = folder_;
-  partial_ += ".partial";
-  std::error_code error;
-  fs::remove_all(partial_, error);
-  fs::create_directories(partial_, error);
-  if (error) fail_to_write(partial_, error.value());
-  telemetry_ = open_for_writing(partial_ / "telemetry.tlog");
-  frames_ = open_for_writing(partial_ / "frames.jsonl");
+}
+
+RecordingWriter::RecordingWriter(fs::path folder, NameTaken name_taken)
+    : name_taken_(name_taken),
+      place_(make_place(std::move(folder), name_taken)),
+      telemetry_(place_.partial / "telemetry.tlog"),
+      frames_(place_.partial / "frames.jsonl") {
+  io::sync(place_.partial);
 }
 
 void RecordingWriter::write_extra(const std::string& name, const std::string& content) {
-  const fs::path file = partial_ / name;
-  std::ofstream output = open_for_writing(file);
-  write_out(output, content, file);
+  LogFile file(place_.partial / name);
+  file.append(content);
+  file.finish();
+  io::sync(place_.partial);
 }
 
 void RecordingWriter::write_camera(const CameraConfig& camera) {
@@ -93,22 +127,30 @@ void RecordingWriter::add_telemetry(HostTime received_at, const std::uint8_t* fr
   record.reserve(8 + size);
   for (int shift = 56; shift >= 0; shift -= 8) record.push_back(static_cast<char>(stamp_us >> shift & 0xFF));
   record.append(reinterpret_cast<const char*>(frame), size);
-  write_out(telemetry_, record, partial_ / "telemetry.tlog");
+  telemetry_.append(record);
   ++telemetry_records_;
 }
 
 void RecordingWriter::add_frame(const RecordedFrame& frame) {
-  write_out(frames_, to_json(frame).dump() + "\n", partial_ / "frames.jsonl");
+  frames_.append(to_json(frame).dump() + "\n");
+}
+
+void RecordingWriter::sync() {
+  telemetry_.sync();
+  frames_.sync();
 }
 
 void RecordingWriter::finish() {
-  telemetry_.close();
-  frames_.close();
-  if (!telemetry_ || !frames_) fail_to_write(partial_, errno);
-  std::error_code error;
-  fs::remove(folder_, error);  // an empty folder of that name may exist
-  fs::rename(partial_, folder_, error);
-  if (error) fail_to_write(folder_, error.value());
+  telemetry_.finish();
+  frames_.finish();
+  const fs::path wanted = place_.folder;
+  for (int number = 2; ::rename(place_.partial.c_str(), place_.folder.c_str()) != 0; ++number) {
+    // Another run may have taken the name since; rename() replaces no folder but an empty one.
+    const bool is_taken = errno == ENOTEMPTY || errno == EEXIST || errno == ENOTDIR;
+    if (!is_taken || name_taken_ == NameTaken::kRefuse) fail_to_write(place_.folder, errno);
+    place_.folder = numbered(wanted, number);
+  }
+  sync_name(place_.folder);
 }
 
 std::string truth_to_geojson(const std::vector<TrueTarget>& targets) {

@@ -75,9 +75,10 @@ void FrameExchange::count_refused() {
   ++status_.refused;
 }
 
-void FrameExchange::add_lost_packets(std::uint64_t count) {
+void FrameExchange::count_packet(std::uint64_t lost_before) {
   const std::lock_guard lock{mutex_};
-  status_.lost_packets += count;
+  ++status_.packets;
+  status_.lost_packets += lost_before;
 }
 
 VideoStatus FrameExchange::status(HostTime now) const {

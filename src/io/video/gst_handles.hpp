@@ -20,6 +20,8 @@ template <typename T>
 using GstObjectPtr = std::unique_ptr<T, Releaser<gst_object_unref>>;
 using GstCapsPtr = std::unique_ptr<GstCaps, Releaser<gst_caps_unref>>;
 using GstMessagePtr = std::unique_ptr<GstMessage, Releaser<gst_message_unref>>;
+template <typename T>
+using GObjectPtr = std::unique_ptr<T, Releaser<g_object_unref>>;
 using GstSamplePtr = std::unique_ptr<GstSample, Releaser<gst_sample_unref>>;
 using GstBufferPtr = std::unique_ptr<GstBuffer, Releaser<gst_buffer_unref>>;
 

@@ -40,12 +40,13 @@ RtspSession* session(gpointer self) {
   return static_cast<RtspSession*>(self);
 }
 
-GstElement* add_rtspsrc(GstElement* pipeline, const std::string& url, const VideoConfig& config) {
+GstElement* add_rtspsrc(GstElement* pipeline, const std::string& url, const VideoConfig& config,
+                        const std::string& proxy) {
   constexpr guint kUdp = 1U << 0U;  // of GstRTSPLowerTrans
   constexpr guint kTcp = 1U << 2U;
   const auto timeout_us = static_cast<guint64>(config.connect_timeout_s * 1e6);
   GstElement* source = add_element(pipeline, "rtspsrc");
-  g_object_set(source, "location", url.c_str(), "protocols",
+  g_object_set(source, "location", url.c_str(), "proxy", proxy.c_str(), "protocols",
                config.transport == RtspTransport::kTcp ? kTcp : kUdp, "latency",
                static_cast<guint>(config.reorder_s * 1e3), "drop-on-latency", TRUE, "tcp-timeout", timeout_us,
                "timeout", timeout_us, "udp-reconnect", FALSE, "teardown-timeout",
@@ -99,8 +100,10 @@ RtspSession::RtspSession(const std::string& url, const VideoConfig& config, cons
       exchange_(exchange),
       alive_at_(clock.now()),
       timing_(from_seconds(config.latency_s)),
+      relay_(url, config.transport),
       pipeline_(gst_pipeline_new(nullptr)) {
-  GstElement* source = add_rtspsrc(pipeline_.get(), url, config);
+  GstElement* source = add_rtspsrc(pipeline_.get(), url, config, relay_.address());
+  g_signal_connect(source, "accept-certificate", G_CALLBACK(on_certificate), this);
   g_signal_connect(source, "new-manager", G_CALLBACK(on_manager), this);
   g_signal_connect(source, "select-stream", G_CALLBACK(on_select_stream), this);
   g_signal_connect(source, "pad-added", G_CALLBACK(on_pad), this);
@@ -114,9 +117,21 @@ RtspSession::RtspSession(const std::string& url, const VideoConfig& config, cons
   gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
 }
 
+/// A server that answers in time is told that this is the end.
+RtspSession::~RtspSession() {
+  relay_.cut_within(std::chrono::milliseconds{200});
+}
+
+bool RtspSession::is_server_at_fault() const {
+  const auto end = relay_.end();
+  return end && end->is_server_at_fault;
+}
+
 std::string RtspSession::wait_until_over(const std::atomic<bool>& stop) const {
   while (!stop) {
-    if (auto why = failure(pipeline_.get(), 50 * GST_MSECOND)) return *why;
+    const auto fault = failure(pipeline_.get(), 50 * GST_MSECOND);
+    if (const auto end = relay_.end()) return end->why;  // of which the fault is a consequence
+    if (fault) return *fault;
     const double timeout_s = has_delivered_ ? config_.frame_timeout_s : config_.connect_timeout_s;
     if (seconds(clock_.now() - alive_at_.load()) > timeout_s) return no_frame_text(timeout_s);
   }
@@ -133,6 +148,13 @@ void RtspSession::on_jitter_buffer(GstElement*, GstElement* buffer, guint, guint
 
 void RtspSession::on_report(GstElement*, GstStructure* sync, gpointer self) {
   if (const auto report = sender_report(sync)) session(self)->timing_.observe(*report);
+}
+
+/// The name that GIO compares with the certificate's is that of the relay; the server's is compared here.
+gboolean RtspSession::on_certificate(GstElement*, GTlsConnection*, GTlsCertificate* certificate,
+                                     GTlsCertificateFlags faults, gpointer self) {
+  if ((faults & ~static_cast<unsigned>(G_TLS_CERTIFICATE_BAD_IDENTITY)) != 0) return FALSE;
+  return g_tls_certificate_verify(certificate, session(self)->relay_.server(), nullptr) == 0 ? TRUE : FALSE;
 }
 
 /// Selects the first stream that can be decoded: cameras list the main one first.
@@ -197,8 +219,7 @@ void RtspSession::observe_packet(GstBuffer** packet) {
   const RtpPacket seen{gst_rtp_buffer_get_seq(&rtp), gst_rtp_buffer_get_timestamp(&rtp),
                        begins_random_access_picture(codec_, payload, gst_rtp_buffer_get_payload_len(&rtp))};
   gst_rtp_buffer_unmap(&rtp);
-  const std::uint64_t lost = timing_.observe(seen, clock_.now());
-  if (lost > 0) exchange_.add_lost_packets(lost);
+  exchange_.count_packet(timing_.observe(seen, clock_.now()));
   *packet = gst_buffer_make_writable(*packet);
   gst_buffer_add_reference_timestamp_meta(*packet, rtp_timestamp_caps(), seen.timestamp, GST_CLOCK_TIME_NONE);
 }
@@ -247,6 +268,7 @@ void RtspSession::deliver(GstSample* sample) {
   if (GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED)) frame.damaged = true;
   frame.bgr = std::move(*bgr);
   alive_at_ = now;
+  relay_.note_frame();
   has_delivered_ = true;
   exchange_.offer(std::move(frame));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gio/gio.h>
 #include <gst/app/gstappsink.h>
 
 #include <atomic>
@@ -11,6 +12,7 @@
 #include "geoloc/io/video/rtp_payload.hpp"
 #include "geoloc/io/video/video_config.hpp"
 #include "gst_handles.hpp"
+#include "stream_relay.hpp"
 #include "stream_timing.hpp"
 
 namespace geoloc::io {
@@ -18,14 +20,16 @@ namespace geoloc::io {
 /// Throws std::runtime_error naming the element and its package if a GStreamer element is missing.
 void require_rtsp_elements();
 
-/// One connection to a server: rtspsrc ! depayloader ! parser ! decoder ! videoconvert ! appsink. Frames go
-/// to the exchange with their capture time. Every callback runs in a thread of GStreamer's, which ends with
-/// the pipeline.
+/// One connection to a server, through a relay: rtspsrc ! depayloader ! parser ! decoder ! videoconvert !
+/// appsink. Frames go to the exchange with their capture time. Every callback runs in a thread of
+/// GStreamer's, which ends with the pipeline.
 class RtspSession {
  public:
   /// Begins to connect. Everything passed by reference must outlive the session.
   RtspSession(const std::string& url, const VideoConfig& config, const HostClock& clock,
               FrameExchange& exchange);
+  /// Takes a moment, whatever the server does.
+  ~RtspSession();
   RtspSession(const RtspSession&) = delete;
   RtspSession& operator=(const RtspSession&) = delete;
 
@@ -34,6 +38,9 @@ class RtspSession {
 
   bool has_delivered() const { return has_delivered_; }
 
+  /// The connection was given up because of what the server sent.
+  bool is_server_at_fault() const;
+
  private:
   struct Format;
   static const Format* format_for(GstCaps* caps);
@@ -41,6 +48,8 @@ class RtspSession {
   static void on_manager(GstElement*, GstElement* manager, gpointer self);
   static void on_jitter_buffer(GstElement*, GstElement* buffer, guint, guint, gpointer self);
   static void on_report(GstElement*, GstStructure* report, gpointer self);
+  static gboolean on_certificate(GstElement*, GTlsConnection*, GTlsCertificate* certificate,
+                                 GTlsCertificateFlags faults, gpointer self);
   static gboolean on_select_stream(GstElement*, guint, GstCaps* caps, gpointer self);
   static void on_pad(GstElement*, GstPad* pad, gpointer self);
   static GstPadProbeReturn on_packets(GstPad*, GstPadProbeInfo* info, gpointer self);
@@ -62,6 +71,7 @@ class RtspSession {
   std::atomic<VideoCodec> codec_{VideoCodec::kH264};
   StreamTiming timing_;
 
+  StreamRelay relay_;
   GstElement* converter_ = nullptr;  // owned by the pipeline
   GstPipelinePtr pipeline_;          // last: its threads end before what they use
 };

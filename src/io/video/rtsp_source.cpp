@@ -15,6 +15,12 @@
 #include "rtsp_session.hpp"
 
 namespace geoloc::io {
+namespace {
+
+/// A server that is there but not to be believed is not asked more often, in the end.
+constexpr double kPauseOfFault_s = 10.0;
+
+}  // namespace
 
 class RtspSource::Impl {
  public:
@@ -47,31 +53,37 @@ class RtspSource::Impl {
   void run() {
     double retry_s = config_.retry_min_s;
     while (!stop_) {
-      const bool has_delivered = attempt();
-      if (has_delivered) retry_s = config_.retry_min_s;
+      const Outcome outcome = attempt();
+      if (outcome.has_delivered) retry_s = config_.retry_min_s;
       std::unique_lock lock{mutex_};
       stopped_.wait_for(lock, from_seconds(retry_s), [this] { return stop_.load(); });
-      retry_s = std::min(2 * retry_s, config_.retry_max_s);
+      const double longest_s =
+          outcome.is_server_at_fault ? std::max(kPauseOfFault_s, config_.retry_max_s) : config_.retry_max_s;
+      retry_s = std::min(2 * retry_s, longest_s);
     }
   }
 
-  /// Runs one connection from beginning to end; true if it delivered frames. It must not throw, because the
-  /// thread goes on.
-  bool attempt() {
+  struct Outcome {
+    bool has_delivered = false;  ///< frames
+    bool is_server_at_fault = false;
+  };
+
+  /// Runs one connection from beginning to end. It must not throw, because the thread goes on.
+  Outcome attempt() {
     exchange_.begin_attempt();
-    bool has_delivered = false;
+    Outcome outcome;
     std::string why;
     try {
       const RtspSession session{url_, config_, clock_, exchange_};
       why = session.wait_until_over(stop_);
-      has_delivered = session.has_delivered();
+      outcome = {session.has_delivered(), session.is_server_at_fault()};
     } catch (const std::exception& error) {
       why = error.what();
     }
-    if (stop_) return has_delivered;
+    if (stop_) return outcome;
     exchange_.report_error(without_credentials(url_) + ": " + without_credentials_of(url_, why));
     exchange_.set_state(VideoState::kRetrying);
-    return has_delivered;
+    return outcome;
   }
 
   const std::string url_;

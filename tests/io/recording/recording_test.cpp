@@ -73,7 +73,43 @@ TEST(Recording, WriterRefusesAFolderInUse) {
   const testing::TemporaryFolder temporary;
   temporary.write("notes.txt", "mine");
   EXPECT_THROW(RecordingWriter{temporary.path()}, std::runtime_error);
+  EXPECT_THROW(RecordingWriter(temporary.path(), NameTaken::kNumber), std::runtime_error);
   EXPECT_NO_THROW(RecordingWriter{temporary.path() / "new"});
+}
+
+TEST(Recording, WriterLeavesWhatAnotherRunHasWritten) {
+  const testing::TemporaryFolder temporary;
+  const auto folder = temporary.path() / "run";
+  { const RecordingWriter cut_off(folder); }
+  const auto left = temporary.write("run.partial/frames.jsonl", "mine");
+  EXPECT_THROW(RecordingWriter{folder}, std::runtime_error);
+  RecordingWriter next(folder, NameTaken::kNumber);
+  EXPECT_EQ(next.folder(), temporary.path() / "run-2");
+  EXPECT_EQ(RecordingWriter(folder, NameTaken::kNumber).folder(), temporary.path() / "run-3");
+  next.finish();
+  EXPECT_TRUE(std::filesystem::exists(temporary.path() / "run-2" / "telemetry.tlog"));
+  EXPECT_EQ(RecordingWriter(temporary.path() / "run-2", NameTaken::kNumber).folder().filename(), "run-2-2");
+  EXPECT_EQ(std::filesystem::file_size(left), 4U);
+}
+
+TEST(Recording, WriterTakesAnotherNameWhereItsOwnIsTakenMeanwhile) {
+  const testing::TemporaryFolder temporary;
+  const auto folder = temporary.path() / "run";
+  for (const auto name_taken : {NameTaken::kRefuse, NameTaken::kNumber}) {
+    RecordingWriter writer(folder, name_taken);
+    std::filesystem::create_directory(folder);
+    temporary.write("run/notes.txt", "mine");
+    if (name_taken == NameTaken::kRefuse) {
+      EXPECT_THROW(writer.finish(), std::runtime_error);
+      std::filesystem::remove_all(folder);
+      std::filesystem::remove_all(writer.partial_folder());
+    } else {
+      writer.finish();
+      EXPECT_EQ(writer.folder(), temporary.path() / "run-2");
+      EXPECT_TRUE(std::filesystem::exists(writer.folder() / "frames.jsonl"));
+    }
+  }
+  EXPECT_EQ(std::filesystem::file_size(folder / "notes.txt"), 4U);
 }
 
 TEST(Recording, WriterReportsAFullDisk) {
@@ -133,6 +169,21 @@ INSTANTIATE_TEST_SUITE_P(
                       R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "class_id": 0.5}]})",
                       R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "class_id": 1e12}]})",
                       R"({"time_us": 6, "detections": [], "telemetry_records": -3})"));
+
+TEST(Frames, WhatAPowerCutLeavesAtTheEndIsSkippedAndCounted) {
+  using namespace std::string_literals;
+  const std::string good = R"({"time_us": 5, "detections": []})";
+  for (const std::string& end : {R"({"time_us": 6, "dete)"s, "\0\0\0"s, "{\"time\0\0\0"s, "\0\0}\n"s}) {
+    std::istringstream input(good + "\n" + end);
+    std::size_t skipped = 0;
+    EXPECT_EQ(read_frames(input, "frames.jsonl", BadLines::kRefuse, skipped).size(), 1U) << end;
+    EXPECT_EQ(skipped, 1U);
+  }
+  std::istringstream whole(good + "\n" + good);  // other programs may leave out the last line's end
+  std::size_t skipped = 0;
+  EXPECT_EQ(read_frames(whole, "frames.jsonl", BadLines::kRefuse, skipped).size(), 2U);
+  EXPECT_EQ(skipped, 0U);
+}
 
 TEST(Truth, RefusesWhatIsNoPlace) {
   const testing::TemporaryFolder temporary;

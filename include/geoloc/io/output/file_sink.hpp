@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "geoloc/io/atomic_file.hpp"
+#include "geoloc/io/output/result_file.hpp"
 #include "geoloc/io/output/sink.hpp"
 
 namespace geoloc::io {
@@ -16,16 +16,16 @@ class FileSink final : public Sink {
  public:
   using Render = std::function<std::string(const RunRecord&)>;
 
-  FileSink(std::string option, std::filesystem::path file, Render render)
+  FileSink(std::string option, ResultFile file, Render render)
       : option_(std::move(option)), file_(std::move(file)), render_(std::move(render)) {}
 
-  std::string name() const override { return option_ + " " + file_.string(); }
+  std::string name() const override { return option_ + " " + file_.name().string(); }
   bool wants_frames() const override { return false; }
-  void on_run(const RunRecord& run) override { write_file_atomically(file_, render_(run)); }
+  void on_run(const RunRecord& run) override { file_.write(render_(run)); }
 
  private:
   std::string option_;
-  std::filesystem::path file_;
+  ResultFile file_;
   Render render_;
 };
 

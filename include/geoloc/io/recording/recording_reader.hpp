@@ -29,7 +29,8 @@ struct Recording {
 };
 
 /// Reads the whole folder. Throws std::runtime_error with file, line and reason for a missing file, a bad
-/// line, a number that is not finite, a box without size, or frame times that run backwards.
+/// line, a number that is not finite, a box without size, or frame times that run backwards. What a crash or
+/// a power cut leaves at the end, half a line or zeros, is always skipped and counted.
 Recording read_recording(const std::filesystem::path& folder, BadLines bad_lines = BadLines::kRefuse);
 
 /// frames.jsonl alone; `name` stands for the file in messages.

@@ -4,23 +4,37 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
+#include "geoloc/io/log_file.hpp"
 #include "geoloc/io/recording/recording.hpp"
 
 namespace geoloc::io {
 
+/// What to do where a recording of that name exists, or is being written, or was cut off. A folder of
+/// anything else is always refused.
+enum class NameTaken {
+  kRefuse,  ///< throw
+  kNumber   ///< take the first free one of `<folder>-2`, `<folder>-3`, …
+};
+
 /// Writes a recording into `<folder>.partial`, which finish() renames to `<folder>`: a recording under its
-/// own name is complete, and one that was cut off by a power failure can still be replayed. Every call throws
-/// std::runtime_error, naming the file and the system's reason, when the disk does not take the data.
+/// own name is complete, and one that was cut off by a power failure can still be replayed. Nothing that
+/// another run has written is touched. Every call throws std::runtime_error, naming the file and the system's
+/// reason, when the disk does not take the data.
 class RecordingWriter {
  public:
-  /// Throws also when `folder` exists already and is not empty.
-  explicit RecordingWriter(std::filesystem::path folder);
+  explicit RecordingWriter(std::filesystem::path folder, NameTaken name_taken = NameTaken::kRefuse);
 
+  /// The recording's name, which with kNumber may not be the one asked for.
+  const std::filesystem::path& folder() const { return place_.folder; }
+
+  /// The folder's name until it is complete.
+  const std::filesystem::path& partial_folder() const { return place_.partial; }
+
+  /// The small files survive a power cut at once, the folder's names too.
   void write_camera(const CameraConfig& camera);
   void write_config(const std::string& json);
   void write_class_names(const std::vector<std::string>& names);
@@ -32,17 +46,27 @@ class RecordingWriter {
   void add_telemetry(HostTime received_at, const std::uint8_t* frame, std::size_t size);
   void add_frame(const RecordedFrame& frame);
 
+  /// What was added survives a power cut from now on. It may take as long as the disk does.
+  void sync();
+
   /// Records of telemetry written so far (RecordedFrame::telemetry_records).
   std::uint64_t telemetry_records() const { return telemetry_records_; }
 
-  /// Closes the files and gives the folder its final name. Nothing can be added afterwards.
+  /// Syncs and closes the files and gives the folder its final name. Nothing can be added afterwards.
   void finish();
 
  private:
-  std::filesystem::path folder_;
-  std::filesystem::path partial_;
-  std::ofstream telemetry_;
-  std::ofstream frames_;
+  struct Place {
+    std::filesystem::path folder;
+    std::filesystem::path partial;
+  };
+
+  static Place make_place(std::filesystem::path folder, NameTaken name_taken);
+
+  NameTaken name_taken_;
+  Place place_;
+  LogFile telemetry_;
+  LogFile frames_;
   std::uint64_t telemetry_records_ = 0;
 };
 

@@ -31,7 +31,8 @@ class FrameExchange {
   void begin_attempt();
   void report_error(std::string message);
   void count_refused();
-  void add_lost_packets(std::uint64_t count);
+  /// A packet came, after so many others that did not.
+  void count_packet(std::uint64_t lost_before);
 
   VideoStatus status(HostTime now) const;
 

@@ -28,6 +28,7 @@ struct VideoStatus {
   std::uint64_t dropped = 0;                         ///< replaced by a newer one before they were taken
   std::uint64_t damaged = 0;                         ///< see VideoFrame::damaged
   std::uint64_t refused = 0;  ///< not usable as pictures: empty, absurdly large, without time
+  std::uint64_t packets = 0;  ///< that came
   std::uint64_t lost_packets = 0;
   std::uint64_t attempts = 0;  ///< connections tried, the first one included
 };
