@@ -14,6 +14,7 @@
 #include "app/recorder.hpp"
 #include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
+#include "common/link_message.hpp"
 #include "common/live_page_output.hpp"
 #include "common/objects_table.hpp"
 #include "common/output_options.hpp"
@@ -90,8 +91,8 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
   }
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
-  LiveRun run(program.session, *inputs.socket, worker, program.recorder, program.reports, program.clock,
-              [&program](const PendingFrame& frame, bool is_located) {
+  LiveRun run(program.session, *inputs.socket, *inputs.guard, worker, program.recorder, program.reports,
+              program.clock, [&program](const PendingFrame& frame, bool is_located) {
                 program.outputs.post_frame(program.session, frame, is_located);
               });
   const HostTime started_at = program.clock.now();
@@ -105,6 +106,7 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
       tell_all(program.session.take_news(), console);
       console.update(state);
       program.outputs.post_status(state);
+      if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
     }
     if (files.is_due(now)) program.outputs.post_run(program.record());
   }
@@ -134,6 +136,8 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   Console console;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
+  if (program->inputs.signing_store && !program->inputs.signing_store->remark().empty())
+    console.say(program->inputs.signing_store->remark());
   if (program->page) console.say("page: " + program->page->url());
   run_until_stopped(*program, console, stop);
   program->session.finish();
@@ -142,6 +146,8 @@ int main(int argc, char** argv) {
   const io::RunRecord record = program->record();
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
+  const std::string refusals = count_of_refusals(program->inputs.guard->counts());
+  if (!refusals.empty()) console.say(refusals);
   console.say(record.summary);
   if (options.outputs.wants_table()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   const bool has_failed = program->outputs.has_failed() || program->recorder.has_failed();

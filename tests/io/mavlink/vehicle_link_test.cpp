@@ -51,17 +51,73 @@ TEST_F(VehicleLinkTest, ListensToTheFirstAutopilotOnly) {
   EXPECT_FALSE(link_.status(kStart).vehicle);
   EXPECT_TRUE(hear(vehicle_.heartbeat(), 1s));
   EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_TRUE(hear(vehicle_.attitude(at(1900ms)), 1900ms));
 
   EXPECT_FALSE(hear(other.heartbeat(), 2s));
   EXPECT_FALSE(hear(other.attitude(at(900s)), 2s));
   EXPECT_FALSE(hear(other.position(at(900s), 1.0, 2.0), 2s));
   EXPECT_FALSE(hear(camera.attitude(at(2s)), 2s));
   EXPECT_TRUE(hear(vehicle_.attitude(at(2s)), 2s));
-  EXPECT_EQ(sink_.attitudes.size(), 1U);
+  EXPECT_EQ(sink_.attitudes.size(), 2U);
   EXPECT_TRUE(sink_.positions.empty());
   EXPECT_EQ(counts().foreign_frames, 7U);
-  EXPECT_EQ(counts().vehicle_frames, 2U);
-  EXPECT_EQ(sink_.frames.size(), 9U) << "a recording keeps the whole link";
+  EXPECT_EQ(counts().vehicle_frames, 3U);
+  EXPECT_EQ(sink_.frames.size(), 10U) << "a recording keeps the whole link";
+  EXPECT_EQ(link_.status(kStart + 3s).other_system, 2);
+  EXPECT_FALSE(link_.status(kStart + 30s).other_system);
+}
+
+TEST_F(VehicleLinkTest, AHeartbeatAloneMakesNoVehicleForGood) {
+  FrameFactory other({7, 1});
+  hear(other.heartbeat(), 1s);
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{7, 1})) << "it is asked for its state";
+  hear(vehicle_.heartbeat(), 2s);
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{7, 1})) << "it has its turn";
+  EXPECT_TRUE(hear(vehicle_.attitude(at(2100ms)), 2100ms));
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_EQ(sink_.attitudes.size(), 1U);
+  EXPECT_EQ(sink_.other_vehicles, 0) << "nothing was delivered of the other one";
+}
+
+TEST_F(VehicleLinkTest, AutopilotsThatSendNothingUnaskedHaveTheirTurns) {
+  FrameFactory other({7, 1});
+  std::vector<int> vehicles;
+  for (int i = 0; i < 30; ++i) {
+    hear(other.heartbeat(), i * 1s);
+    hear(vehicle_.heartbeat(), i * 1s + 500ms);
+    const int now = link_.status(kStart).vehicle->system;
+    if (vehicles.empty() || vehicles.back() != now) vehicles.push_back(now);
+  }
+  EXPECT_EQ(vehicles, (std::vector<int>{7, 1, 7, 1, 7, 1}));
+}
+
+TEST_F(VehicleLinkTest, OneFalseStateMakesNoVehicleForGood) {
+  FrameFactory other({7, 1});
+  hear(other.heartbeat(), 1s);
+  hear(other.gnss(1), 1s);
+  hear(other.attitude(at(900s)), 1s);
+  for (int i = 0; i < 100; ++i) {
+    if (i % 10 == 0) hear(vehicle_.heartbeat(), 1s + i * 100ms);
+    hear(vehicle_.attitude(at(1s + i * 100ms)), 1s + i * 100ms);
+    hear(vehicle_.position(at(1s + i * 100ms), 47.0, 8.0), 1s + i * 100ms);
+  }
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_EQ(sink_.other_vehicles, 1);
+  EXPECT_GE(sink_.positions.size(), 65U) << "all but those of the first three seconds";
+  EXPECT_NEAR(seconds(*link_.clock().to_vehicle(kStart + 10s) - at(10s)), 0.0, 1e-3);
+}
+
+TEST_F(VehicleLinkTest, AVehicleThatHasProvenItselfStaysTheVehicle) {
+  FrameFactory other({7, 1});
+  hear(vehicle_.heartbeat(), 1s);
+  for (int i = 0; i <= 31; ++i) hear(vehicle_.attitude(at(1s + i * 100ms)), 1s + i * 100ms);
+  for (int i = 0; i < 600; ++i) {
+    hear(other.heartbeat(), 5s + i * 100ms);
+    hear(other.attitude(at(1s + i * 100ms)), 5s + i * 100ms);
+  }
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_EQ(sink_.attitudes.size(), 32U);
+  EXPECT_EQ(link_.status(kStart + 60s).other_system, 7);
 }
 
 TEST_F(VehicleLinkTest, WaitsForTheConfiguredSystem) {
@@ -71,6 +127,8 @@ TEST_F(VehicleLinkTest, WaitsForTheConfiguredSystem) {
   FrameFactory second({2, 1});
   const Bytes first_heartbeat = vehicle_.heartbeat(), second_heartbeat = second.heartbeat();
   EXPECT_FALSE(link.consume(kStart, first_heartbeat.data(), first_heartbeat.size(), sink_));
+  EXPECT_FALSE(link.status(kStart).vehicle);
+  EXPECT_EQ(link.status(kStart).other_system, 1);
   EXPECT_TRUE(link.consume(kStart, second_heartbeat.data(), second_heartbeat.size(), sink_));
 }
 

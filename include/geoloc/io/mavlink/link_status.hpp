@@ -29,7 +29,9 @@ struct TelemetryCounts {
 
 /// A VehicleLink at one moment.
 struct LinkStatus {
-  std::optional<MavAddress> vehicle;     ///< nullopt until an autopilot was heard
+  std::optional<MavAddress> vehicle;  ///< nullopt until an autopilot was heard
+  /// Another autopilot's system that was heard just now; mavlink.system_id would make it the vehicle.
+  std::optional<std::uint8_t> other_system;
   bool is_v2 = false;                    ///< the vehicle's last frame
   std::optional<std::uint8_t> fix_type;  ///< GPS_FIX_TYPE, where the vehicle sends it
   double attitude_rate_hz = 0.0;         ///< delivered, over the last three seconds
