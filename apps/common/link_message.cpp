@@ -19,11 +19,25 @@ std::string of_another(const io::LinkStatus& link) {
                      *link.other_system);
 }
 
+std::string no_position(const io::LinkStatus& link) {
+  const std::string comes = link.since_position ? "no position comes any more" : "no position comes";
+  if (!link.position_refusal) return comes;
+  switch (*link.position_refusal) {
+    case io::PositionRefusal::kNoPlace:
+      return comes + ": it sends latitude and longitude 0";
+    case io::PositionRefusal::kNoFix:
+      return link.since_position ? "its GNSS receiver has lost its fix" : "its GNSS receiver has no fix yet";
+    case io::PositionRefusal::kNoAbsolutePosition:
+      return comes + ": its estimator says that it does not know where it is";
+  }
+  return comes;
+}
+
 /// Empty where frames can be located.
 std::string fault(const io::LinkStatus& link, const StateProvider& state) {
   using Use = StateProvider::PositionUse;
   if (is_silent(link.since_attitude)) return "no attitude comes";
-  if (is_silent(link.since_position)) return "no position comes (no fix yet?)";
+  if (is_silent(link.since_position)) return no_position(link);
   if (state.position_use() == Use::kUnconfirmed) return "no two of its positions agree yet";
   if (state.position_use() == Use::kTooFar)
     return "its positions are more than 200 km from where the run began: a restart begins there";
@@ -37,6 +51,8 @@ LinkMessage link_message(const io::LinkStatus& link, const StateProvider& state)
     return {"waiting for a vehicle: no MAVLink heartbeat of an autopilot yet" + of_another(link), false};
   const std::string vehicle = fmt::format("vehicle {}: ", link.vehicle->system);
   const std::string what = fault(link, state);
+  if (what.empty() && link.has_gnss_glitch)
+    return {vehicle + "telemetry comes; its estimator reports a GNSS glitch: the position may be off", true};
   if (what.empty()) return {vehicle + "telemetry comes", true};
   return {vehicle + what + "; frames cannot be located" + of_another(link), false};
 }

@@ -93,6 +93,7 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   last_attitude_.reset();
   last_euler_attitude_.reset();
   last_position_.reset();
+  last_refusal_.reset();
   last_stamped_range_.reset();
   last_heard_ = arrival.at;
   fast_timesyncs_ = 0;
@@ -101,7 +102,24 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   has_delivered_ = false;
 }
 
+/// Before its own stamp no message comes. It is dropped, unless others confirm that the clock has stepped: a
+/// sample from the future would be waited for, and hide those that come until then.
+bool VehicleLink::accept_early_stamp(VehicleTime stamp, const Arrival& arrival) {
+  const std::uint64_t steps_before = clock_.counts().steps;
+  clock_.add_arrival(stamp, arrival.at);
+  if (clock_.counts().steps == steps_before) {
+    ++counts_.suspect_stamps;
+    return false;
+  }
+  boot_clock_ = BootClockMonitor{};
+  boot_clock_.observe(stamp);
+  tell_of_clock_step(steps_before, arrival);
+  return true;
+}
+
 bool VehicleLink::accept_stamp(VehicleTime stamp, const Arrival& arrival) {
+  if (boot_clock_.is_near_newest(stamp) && clock_.is_early(stamp, arrival.at))
+    return accept_early_stamp(stamp, arrival);
   switch (boot_clock_.observe(stamp)) {
     case BootClockMonitor::Verdict::kSuspect:
       ++counts_.suspect_stamps;
@@ -144,7 +162,8 @@ void VehicleLink::handle(const AttitudeMessage& message, const Arrival& arrival)
 
 void VehicleLink::handle(const PositionSample& message, const Arrival& arrival) {
   if (!accept_stamp(message.time, arrival)) return;
-  if (!gate_.admits(message.position)) {
+  last_refusal_ = gate_.refusal(message.position, arrival.at);
+  if (last_refusal_) {
     ++counts_.no_fix_positions;
     return;
   }
@@ -152,7 +171,7 @@ void VehicleLink::handle(const PositionSample& message, const Arrival& arrival) 
   last_position_ = arrival.at;
   position_meter_.add(arrival.at);
   PositionSample sample = message;
-  if (gate_.gnss()) sample.sigma_horizontal_m = gate_.gnss()->sigma_horizontal_m;
+  sample.sigma_horizontal_m = gate_.sigma_horizontal_m(arrival.at);
   has_delivered_ = true;
   arrival.sink.on_position(sample);
 }
@@ -258,7 +277,9 @@ LinkStatus VehicleLink::status(HostTime now) const {
   status.vehicle = choice_.vehicle();
   status.other_system = choice_.other_system(now);
   status.is_v2 = is_v2_;
-  if (gate_.gnss()) status.fix_type = gate_.gnss()->fix_type;
+  status.fix_type = gate_.fix_type();
+  status.position_refusal = gate_.veto(now) ? gate_.veto(now) : last_refusal_;
+  status.has_gnss_glitch = gate_.has_gnss_glitch(now);
   status.attitude_rate_hz = attitude_meter_.rate_hz(now);
   status.position_rate_hz = position_meter_.rate_hz(now);
   status.since_attitude = since(last_attitude_, now);

@@ -126,6 +126,12 @@ Bytes FrameFactory::ekf_status(std::uint16_t flags) {
   return pack(mavlink_msg_ekf_status_report_encode_status, fields);
 }
 
+Bytes FrameFactory::estimator_status(std::uint16_t flags) {
+  mavlink_estimator_status_t fields{};
+  fields.flags = flags;
+  return pack(mavlink_msg_estimator_status_encode_status, fields);
+}
+
 Bytes FrameFactory::system_time(VehicleTime time) {
   mavlink_system_time_t fields{};
   fields.time_boot_ms = boot_ms(time);

@@ -47,6 +47,7 @@ class FrameFactory {
                         std::uint8_t signal_quality = 0);
   Bytes rangefinder(double distance_m);
   Bytes ekf_status(std::uint16_t flags);
+  Bytes estimator_status(std::uint16_t flags);
   Bytes system_time(VehicleTime time);
   Bytes timesync(std::int64_t tc1, std::int64_t ts1);
   /// A TIMESYNC of later dialects, which state the receiver.

@@ -157,6 +157,67 @@ TEST_F(VehicleLinkTest, KeepsPositionsBackUntilTheVehicleKnowsWhereItIs) {
   EXPECT_DOUBLE_EQ(sink_.positions.back().height_above_home_m, 12.5);
 }
 
+TEST_F(VehicleLinkTest, AVetoThatIsNotRepeatedLapses) {
+  meet_vehicle();
+  hear(vehicle_.ekf_status(0), 1s);
+  hear(vehicle_.position(at(5900ms), 47.0, 8.0), 5900ms);
+  EXPECT_TRUE(sink_.positions.empty());
+  EXPECT_EQ(link_.status(kStart + 5900ms).position_refusal, PositionRefusal::kNoAbsolutePosition);
+  hear(vehicle_.gnss(1), 6s);
+  hear(vehicle_.position(at(6100ms), 47.0, 8.0), 6100ms);
+  EXPECT_EQ(link_.status(kStart + 6100ms).position_refusal, PositionRefusal::kNoFix);
+  hear(vehicle_.attitude(at(9s)), 9s);
+  hear(vehicle_.position(at(11100ms), 47.0, 8.0), 11100ms);
+  EXPECT_EQ(sink_.positions.size(), 1U);
+  EXPECT_FALSE(link_.status(kStart + 11100ms).position_refusal);
+  hear(vehicle_.position(at(11200ms), 0.0, 0.0), 11200ms);
+  EXPECT_EQ(link_.status(kStart + 11200ms).position_refusal, PositionRefusal::kNoPlace);
+}
+
+TEST_F(VehicleLinkTest, OneFalseAccuracyAmongOthersHasNoEffect) {
+  meet_vehicle();
+  std::vector<std::optional<double>> told;
+  for (const double h_acc_m : {0.8, 5000.0, 0.9, 0.7, 0.001, 0.8, 0.0, 0.6}) {
+    const Duration now = 2s + told.size() * 500ms;
+    hear(vehicle_.gnss(3, h_acc_m), now);
+    hear(vehicle_.position(at(now), 47.0, 8.0), now);
+    told.push_back(sink_.positions.back().sigma_horizontal_m);
+  }
+  EXPECT_EQ(told, (std::vector<std::optional<double>>{0.8, 0.8, 0.9, 0.9, 0.7, 0.7, std::nullopt, 0.6}));
+  for (const Duration now : {8s, 11s}) hear(vehicle_.attitude(at(now)), now);
+  hear(vehicle_.position(at(11100ms), 47.0, 8.0), 11100ms);
+  EXPECT_FALSE(sink_.positions.back().sigma_horizontal_m) << "nothing has been told for long";
+}
+
+TEST_F(VehicleLinkTest, TellsAGlitchOfEitherEstimator) {
+  meet_vehicle();
+  const auto has_glitch = [&] { return link_.status(kStart + 2s).has_gnss_glitch; };
+  hear(vehicle_.ekf_status(831 | 1024), 2s);  // its other bit of this number has another meaning
+  EXPECT_FALSE(has_glitch());
+  hear(vehicle_.ekf_status(831 | 32768), 2s);
+  EXPECT_TRUE(has_glitch());
+  hear(vehicle_.estimator_status(831), 2s);
+  EXPECT_FALSE(has_glitch());
+  hear(vehicle_.estimator_status(831 | 1024), 2s);
+  EXPECT_TRUE(has_glitch());
+  EXPECT_FALSE(link_.status(kStart + 20s).has_gnss_glitch);
+}
+
+TEST_F(VehicleLinkTest, DropsASampleThatComesBeforeItsStamp) {
+  meet_vehicle();
+  for (int i = 0; i < 40; ++i) hear(vehicle_.attitude(at(1s + i * 100ms)), 1s + i * 100ms);
+  const std::size_t before = sink_.attitudes.size();
+  hear(vehicle_.attitude(at(9800ms)), 5s);
+  EXPECT_EQ(sink_.attitudes.size(), before);
+  EXPECT_EQ(counts().suspect_stamps, 1U);
+  hear(vehicle_.attitude(at(5s)), 5s);
+  EXPECT_EQ(sink_.attitudes.size(), before + 1);
+  EXPECT_EQ(link_.clock().doubt(), Duration::zero());
+  for (int i = 0; i < 3; ++i) hear(vehicle_.attitude(at(9s + i * 100ms)), 5100ms + i * 100ms);
+  EXPECT_EQ(sink_.clock_steps.size(), 1U) << "three in a row: the clock has stepped";
+  EXPECT_EQ(sink_.attitudes.size(), before + 2) << "the third is of the new clock";
+}
+
 TEST_F(VehicleLinkTest, TakesQuaternionsOnlyWhereThereAreNoAngles) {
   meet_vehicle();
   hear(vehicle_.attitude(at(2s)), 2s);

@@ -60,6 +60,7 @@ class VehicleLink {
   bool take(const Frame& frame, const Arrival& arrival);
   void begin_with_vehicle(const Arrival& arrival);
   bool accept_stamp(VehicleTime stamp, const Arrival& arrival);
+  bool accept_early_stamp(VehicleTime stamp, const Arrival& arrival);
   void tell_of_clock_step(std::uint64_t steps_before, const Arrival& arrival);
 
   void handle(const NotDecoded&, const Arrival&) {}
@@ -68,8 +69,8 @@ class VehicleLink {
   void handle(const AttitudeMessage& message, const Arrival& arrival);
   void handle(const PositionSample& message, const Arrival& arrival);
   void handle(const RangeMessage& message, const Arrival& arrival);
-  void handle(const GnssStatus& message, const Arrival&) { gate_.observe(message); }
-  void handle(const EstimatorStatus& message, const Arrival&) { gate_.observe(message); }
+  void handle(const GnssStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
+  void handle(const EstimatorStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
   void handle(const Timesync& message, const Arrival& arrival);
   void handle(const SystemTime& message, const Arrival& arrival) { accept_stamp(message.time, arrival); }
   void handle(const CommandAck& message, const Arrival& arrival);
@@ -93,6 +94,7 @@ class VehicleLink {
   std::optional<HostTime> last_attitude_;
   std::optional<HostTime> last_euler_attitude_;
   std::optional<HostTime> last_position_;
+  std::optional<PositionRefusal> last_refusal_;  // of a position, after the last one that was delivered
   std::optional<HostTime> last_stamped_range_;
   bool has_delivered_ = false;  // a sample of the present vehicle
   HostTime last_heard_{};
