@@ -57,6 +57,7 @@ bool LinkGuard::admits(const Frame& frame, const LinkSource& source, HostTime no
     ++counts_.unasked_timesyncs;
     return false;
   }
+  if (signing_) signing_->note(frame);
   return true;
 }
 

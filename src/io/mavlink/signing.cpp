@@ -118,32 +118,38 @@ LinkSigning::LinkSigning(const SigningKey& key, const SigningStamps& known) : ke
   if (stamps_.sent > 0) stamps_.sent += kMinute;
 }
 
-LinkSigning::Verdict LinkSigning::check(const Frame& frame) {
+LinkSigning::Verdict LinkSigning::check(const Frame& frame) const {
   if (!frame.is_signed || frame.size < kSignatureSize) return Verdict::kUnsigned;
   const std::uint8_t* const end = frame.bytes + frame.size;
   if (!is_equal(digest(key_, frame.bytes, frame.size - kDigestSize), end - kDigestSize))
     return Verdict::kWrong;
-  const std::uint8_t* const signature = end - kSignatureSize;
-  const Stream arrived{frame.sender, signature[0], read_stamp(signature + 1)};
-  if (!is_new(arrived)) return Verdict::kRepeated;
-  stamps_.heard = std::max(stamps_.heard, arrived.stamp);
-  return Verdict::kValid;
+  const Stream arrived = stream_of(frame);
+  const Stream* const known = find(arrived);
+  const bool is_new = known != nullptr ? arrived.stamp > known->stamp
+                                       : count_ < kStreams && arrived.stamp + kMinute >= stamps_.heard;
+  return is_new ? Verdict::kValid : Verdict::kRepeated;
 }
 
-/// Remembers it if it is.
-bool LinkSigning::is_new(const Stream& arrived) {
-  Stream* const end = streams_.begin() + count_;
-  Stream* const known = std::find_if(streams_.begin(), end, [&](const Stream& stream) {
+void LinkSigning::note(const Frame& frame) {
+  const Stream arrived = stream_of(frame);
+  const Stream* const known = find(arrived);
+  if (known == nullptr && count_ == kStreams) return;
+  streams_[known != nullptr ? static_cast<std::size_t>(known - streams_.data()) : count_++] = arrived;
+  stamps_.heard = std::max(stamps_.heard, arrived.stamp);
+}
+
+/// Of a signed frame.
+LinkSigning::Stream LinkSigning::stream_of(const Frame& frame) {
+  const std::uint8_t* const signature = frame.bytes + frame.size - kSignatureSize;
+  return {frame.sender, signature[0], read_stamp(signature + 1)};
+}
+
+const LinkSigning::Stream* LinkSigning::find(const Stream& arrived) const {
+  const Stream* const end = streams_.data() + count_;
+  const Stream* const known = std::find_if(streams_.data(), end, [&](const Stream& stream) {
     return stream.sender == arrived.sender && stream.link == arrived.link;
   });
-  if (known != end) {
-    if (arrived.stamp <= known->stamp) return false;
-    known->stamp = arrived.stamp;
-    return true;
-  }
-  if (count_ == kStreams || arrived.stamp + kMinute < stamps_.heard) return false;
-  streams_[count_++] = arrived;
-  return true;
+  return known != end ? known : nullptr;
 }
 
 OutgoingFrame LinkSigning::sign(const OutgoingFrame& frame, HostTime now) {

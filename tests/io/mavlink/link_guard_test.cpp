@@ -146,6 +146,16 @@ TEST_F(LinkGuardTest, WithAKeyOnlyWhatIsSignedPassesAndWhatIsSentIsSigned) {
   EXPECT_TRUE(testing::is_signed_by(key, Bytes(sent.bytes.begin(), sent.bytes.begin() + sent.size)));
 }
 
+TEST_F(LinkGuardTest, ACopyFromElsewhereThatComesFirstKeepsNoSignedFrameOut) {
+  const SigningKey key{};
+  guard_ = LinkGuard(MavlinkConfig{}, LinkSigning(key, {}));
+  vehicle_.sign({key, 0, 1000});
+  EXPECT_TRUE(passes(vehicle_.attitude(at(0s)), 1, 0s));
+  const Bytes next = vehicle_.attitude(at(1s));
+  EXPECT_FALSE(passes(next, 2, 1s));
+  EXPECT_TRUE(passes(next, 1, 1s));
+}
+
 TEST_F(LinkGuardTest, AFloodOfSourcesKeepsNoWholeFrameOut) {
   std::mt19937 random(1);
   for (int i = 0; i < 20'000; ++i) {

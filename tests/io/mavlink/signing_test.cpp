@@ -35,7 +35,9 @@ Verdict verdict(LinkSigning& signing, const Bytes& bytes) {
   parser.append(bytes.data(), bytes.size());
   const auto frame = parser.next();
   EXPECT_TRUE(frame);
-  return frame ? signing.check(*frame) : Verdict::kUnsigned;
+  const Verdict verdict = frame ? signing.check(*frame) : Verdict::kUnsigned;
+  if (verdict == Verdict::kValid) signing.note(*frame);
+  return verdict;
 }
 
 Bytes bytes_of(const OutgoingFrame& frame) {
@@ -182,7 +184,8 @@ TEST(LinkSigning, DoesNotAllocate) {
   parser.append(bytes.data(), bytes.size());
   const auto frame = parser.next();
   const std::size_t before = geoloc::testing::allocations();
-  signing.check(*frame);
+  EXPECT_EQ(signing.check(*frame), Verdict::kValid);
+  signing.note(*frame);
   signing.sign(writer.heartbeat({1, 191}), kNow);
   EXPECT_EQ(geoloc::testing::allocations(), before);
 }

@@ -52,7 +52,11 @@ class LinkSigning {
   /// `known`: as they were kept before, up to a minute ago.
   LinkSigning(const SigningKey& key, const SigningStamps& known);
 
-  Verdict check(const Frame& frame);
+  Verdict check(const Frame& frame) const;
+
+  /// A valid frame was taken in: from now on it is a repeated one. What is refused for another reason must
+  /// not be noted, lest a copy that comes first keeps the frame out.
+  void note(const Frame& frame);
 
   /// The frame with our signature, stamped `now` or, if that is not after all stamps so far, just after them.
   /// A frame of MAVLink 1 has no place for it and stays as it is.
@@ -70,7 +74,8 @@ class LinkSigning {
 
   static constexpr std::size_t kStreams = 64;
 
-  bool is_new(const Stream& arrived);
+  static Stream stream_of(const Frame& frame);
+  const Stream* find(const Stream& arrived) const;
 
   SigningKey key_;
   SigningStamps stamps_;
