@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <variant>
 
-#include "geoloc/io/mavlink/messages.hpp"
 #include "geoloc/io/mavlink/vehicle_choice.hpp"
 #include "mav_numbers.hpp"
 #include "timing.hpp"

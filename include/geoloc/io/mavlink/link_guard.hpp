@@ -10,6 +10,7 @@
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/link_source.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
+#include "geoloc/io/mavlink/messages.hpp"
 #include "geoloc/io/mavlink/signing.hpp"
 #include "geoloc/io/mavlink/timesync_requests.hpp"
 #include "geoloc/io/mavlink/vehicle_sources.hpp"
