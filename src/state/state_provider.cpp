@@ -55,11 +55,10 @@ Eigen::Vector3d direction(const Geodetic& point) {
           std::sin(latitude_rad)};
 }
 
-/// Two of the same time may be one that was sent twice.
 bool agree(const PositionSample& a, const PositionSample& b) {
   const double pause_s = std::abs(seconds(b.time - a.time));
   const double distance_m = kEarthRadius_m * (direction(b.position) - direction(a.position)).norm();
-  return pause_s > 0.0 && distance_m <= kFirstFixError_m + kHighestSpeed_mps * pause_s;
+  return distance_m <= kFirstFixError_m + kHighestSpeed_mps * pause_s;
 }
 
 bool is_finite(const EulerAngles& angles) {
@@ -116,6 +115,7 @@ void StateProvider::on_clock_step() {
 void StateProvider::forget_samples() {
   attitudes_.clear();
   positions_.clear();
+  if (unconfirmed_) frame_.reset();
   unconfirmed_.reset();
   home_.restart();
   watch_.restart();
@@ -144,24 +144,33 @@ void StateProvider::add(const PositionSample& sample) {
     return;
   }
   if (!accept_stamp(sample.time)) return;
-  if (frame_ || begin_frame(sample)) take(sample);
+  if (unconfirmed_ && sample.time != unconfirmed_->time) judge_beginning(sample);
+  if (!frame_) begin_frame(sample);
+  take(sample);
 }
 
-/// At the second of two positions that agree; the first one is the origin.
-bool StateProvider::begin_frame(const PositionSample& sample) {
-  if (!unconfirmed_ || !agree(*unconfirmed_, sample)) {
-    if (unconfirmed_) ++counters_.unconfirmed;
-    unconfirmed_ = sample;
-    position_use_ = PositionUse::kUnconfirmed;
-    return false;
-  }
-  const PositionSample first = *unconfirmed_;
+/// By the second position of a frame: does it agree with the first?
+void StateProvider::judge_beginning(const PositionSample& second) {
+  const bool is_confirmed = agree(*unconfirmed_, second);
   unconfirmed_.reset();
+  if (is_confirmed) return;
+  ++counters_.unconfirmed;
+  frame_.reset();
+  home_height_msl_m_.reset();
+  positions_.clear();
+  home_.restart();
+  watch_.restart();
+}
+
+void StateProvider::begin_frame(const PositionSample& first) {
+  unconfirmed_ = first;
   if (first.height_msl_m && std::isfinite(*first.height_msl_m))
     home_height_msl_m_ = *first.height_msl_m - first.height_above_home_m;
   frame_.emplace(first.position, home_height_msl_m_.value_or(0.0));
-  take(first);
-  return true;
+}
+
+void StateProvider::keep_frame() {
+  unconfirmed_.reset();
 }
 
 void StateProvider::take(const PositionSample& sample) {
@@ -173,7 +182,7 @@ void StateProvider::take(const PositionSample& sample) {
     return;
   }
   too_far_in_a_row_ = 0;
-  position_use_ = PositionUse::kTaken;
+  position_use_ = unconfirmed_ ? PositionUse::kUnconfirmed : PositionUse::kTaken;
   LocalPosition position;
   position.position_in_enu << local.position_in_enu,
       home_.above_first_home_m(sample.time, sample.height_above_home_m, sample.height_msl_m);
