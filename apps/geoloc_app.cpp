@@ -18,6 +18,7 @@
 #include "app/vehicle_reports.hpp"
 #include "common/command_line.hpp"
 #include "common/last_words.hpp"
+#include "common/link_message.hpp"
 #include "common/live_page_output.hpp"
 #include "common/message_box.hpp"
 #include "common/objects_table.hpp"
@@ -99,8 +100,8 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
   }
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
-  LiveRun run(program.session, *inputs.socket, worker, *program.recorder, program.reports, program.clock,
-              [&program](const PendingFrame& frame, bool is_located) {
+  LiveRun run(program.session, *inputs.socket, *inputs.guard, worker, *program.recorder, program.reports,
+              program.clock, [&program](const PendingFrame& frame, bool is_located) {
                 program.outputs.post_frame(program.session, frame, is_located);
               });
   const HostTime started_at = program.clock.now();
@@ -116,6 +117,7 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
       tell_all(program.session.take_news(), console);
       console.update(state);
       program.outputs.post_status(state);
+      if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
     }
     if (files.is_due(now)) program.outputs.post_run(program.record());
   }
@@ -164,6 +166,8 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
   if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
+  if (program->inputs.signing_store && !program->inputs.signing_store->remark().empty())
+    console.say(program->inputs.signing_store->remark());
   if (program->page) console.say("page: " + program->page->url());
   run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
@@ -174,6 +178,8 @@ int main(int argc, char** argv) {
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
   tell_all(library_words->take(), console);
+  const std::string refusals = count_of_refusals(program->inputs.guard->counts());
+  if (!refusals.empty()) console.say(refusals);
   console.say(record.summary);
   const bool is_shown = !options.outputs.wants_table() || show_table(record, console);
   const bool has_failed = program->outputs.has_failed() || program->recorder->has_failed() || !is_shown;

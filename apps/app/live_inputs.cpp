@@ -20,6 +20,17 @@ std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, c
   return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock);
 }
 
+void guard_link(LiveInputs& inputs) {
+  const io::MavlinkConfig& config = inputs.config.estimation.mavlink;
+  std::optional<io::LinkSigning> signing;
+  if (!config.signing_key_file.empty()) {
+    const io::SigningKey key = read_signing_key(config.signing_key_file);
+    inputs.signing_store = open_signing_store(config);
+    signing.emplace(key, inputs.signing_store->known());
+  }
+  inputs.guard = std::make_unique<io::LinkGuard>(config, signing);
+}
+
 }  // namespace
 
 LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
@@ -45,6 +56,7 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
     inputs.detector = io::open_detector(detector_files(options.detector), inputs.config.detection);
   });
   attempt([&] { inputs.socket = std::make_unique<io::UdpSocket>(io::parse_udp_endpoint(options.udp)); });
+  attempt([&] { guard_link(inputs); });
   attempt([&] { inputs.video = make_video_source(options, inputs.config.video, clock); });
   if (!faults.empty()) throw std::runtime_error(faults);
   return inputs;

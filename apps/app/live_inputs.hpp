@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "app/live_options.hpp"
+#include "app/signing_store.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/mavlink/link_guard.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
 #include "geoloc/io/recording/recording.hpp"
 #include "geoloc/io/video/video_source.hpp"
@@ -21,6 +23,8 @@ struct LiveInputs {
   std::vector<io::TrueTarget> truth;
   std::unique_ptr<io::Detector> detector;
   std::unique_ptr<io::UdpSocket> socket;
+  std::unique_ptr<SigningStore> signing_store;  ///< nullptr where nothing is signed
+  std::unique_ptr<io::LinkGuard> guard;
   std::unique_ptr<io::VideoSource> video;  ///< refers to the clock
 };
 

@@ -13,10 +13,11 @@ constexpr auto kFuture = std::chrono::milliseconds{500};  // clocks disagree a l
 
 }  // namespace
 
-LiveRun::LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
-                 VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame)
+LiveRun::LiveRun(Session& session, io::UdpSocket& socket, io::LinkGuard& guard, DetectionWorker& worker,
+                 Recorder& recorder, VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame)
     : session_(session),
       socket_(socket),
+      guard_(guard),
       worker_(worker),
       recorder_(recorder),
       reports_(reports),
@@ -25,9 +26,9 @@ LiveRun::LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worke
 
 void LiveRun::step() {
   receive_telemetry();
-  session_.link().poll(clock_.now(),
-                       [this](const std::uint8_t* frame, std::size_t size) { socket_.send(frame, size); });
-  reports_.poll(clock_.now(), session_, socket_);
+  const auto to_vehicle = [this](const std::uint8_t* frame, std::size_t size) { send(frame, size); };
+  session_.link().poll(clock_.now(), to_vehicle);
+  reports_.poll(clock_.now(), session_, to_vehicle);
   take_frames();
   process_ready();
 }
@@ -37,10 +38,18 @@ void LiveRun::receive_telemetry() {
   for (int i = 0; i < kMostDatagrams; ++i) {
     const auto datagram = socket_.receive(wait);
     if (!datagram) return;
-    if (session_.add_telemetry(clock_.now(), datagram->data, datagram->size))
-      socket_.answer(datagram->sender);
+    const HostTime now = clock_.now();
+    guard_.receive(now, io::source_of(datagram->sender), datagram->data, datagram->size,
+                   [&](const std::uint8_t* frame, std::size_t size) {
+                     if (session_.add_telemetry(now, frame, size)) socket_.answer(datagram->sender);
+                   });
     wait = std::chrono::milliseconds{0};
   }
+}
+
+void LiveRun::send(const std::uint8_t* frame, std::size_t size) {
+  const io::OutgoingFrame sent = guard_.outgoing(clock_.now(), frame, size);
+  socket_.send(sent.bytes.data(), sent.size);
 }
 
 void LiveRun::take_frames() {

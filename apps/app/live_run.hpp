@@ -12,6 +12,7 @@
 #include "app/stamp_sigma.hpp"
 #include "app/vehicle_reports.hpp"
 #include "common/session.hpp"
+#include "geoloc/io/mavlink/link_guard.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
 
 namespace geoloc::apps {
@@ -32,8 +33,8 @@ class LiveRun {
   using OnFrame = std::function<void(const PendingFrame& frame, bool is_located)>;
 
   /// All must outlive the run.
-  LiveRun(Session& session, io::UdpSocket& socket, DetectionWorker& worker, Recorder& recorder,
-          VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame);
+  LiveRun(Session& session, io::UdpSocket& socket, io::LinkGuard& guard, DetectionWorker& worker,
+          Recorder& recorder, VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame);
 
   /// One turn: waits some milliseconds for telemetry at most.
   void step();
@@ -42,6 +43,7 @@ class LiveRun {
   bool has_ended() const { return worker_.has_ended() && waiting_.empty(); }
 
   const Stats& stats() const { return stats_; }
+  const io::LinkGuard& guard() const { return guard_; }
 
  private:
   struct WaitingFrame {
@@ -50,12 +52,14 @@ class LiveRun {
   };
 
   void receive_telemetry();
+  void send(const std::uint8_t* frame, std::size_t size);
   void take_frames();
   void process_ready();
   void process(const WaitingFrame& frame);
 
   Session& session_;
   io::UdpSocket& socket_;
+  io::LinkGuard& guard_;
   DetectionWorker& worker_;
   Recorder& recorder_;
   VehicleReports& reports_;

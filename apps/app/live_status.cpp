@@ -4,24 +4,10 @@
 #include <algorithm>
 
 #include "common/clock_message.hpp"
+#include "common/link_message.hpp"
 
 namespace geoloc::apps {
 namespace {
-
-constexpr double kSilence_s = 3.0;
-
-bool is_silent(const std::optional<Duration>& since) {
-  return !since || seconds(*since) > kSilence_s;
-}
-
-std::string link_message(const io::LinkStatus& link) {
-  if (!link.vehicle) return "waiting for a vehicle: no MAVLink heartbeat of an autopilot yet";
-  const std::string name = "vehicle " + std::to_string(link.vehicle->system);
-  if (is_silent(link.since_attitude)) return name + ": no attitude comes; frames cannot be located";
-  if (is_silent(link.since_position))
-    return name + ": no position comes (no fix yet?); frames cannot be located";
-  return name + ": telemetry comes";
-}
 
 std::string video_message(const io::VideoStatus& video) {
   switch (video.state) {
@@ -48,8 +34,10 @@ io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& ses
   io::LiveStatus status;
   status.at = now;
   status.elapsed = now - started_at;
-  status.link = link_message(link);
-  status.link_is_good = !is_silent(link.since_attitude) && !is_silent(link.since_position);
+  const LinkMessage telemetry = link_message(link, session.geolocator().state());
+  const std::string refusal = refusal_message(run.guard(), now);
+  status.link = telemetry.text + (refusal.empty() ? "" : "; ") + refusal;
+  status.link_is_good = telemetry.is_good;
   status.attitude_rate_hz = link.attitude_rate_hz;
   status.position_rate_hz = link.position_rate_hz;
   status.video = video_message(stream);

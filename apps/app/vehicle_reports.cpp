@@ -37,11 +37,10 @@ void VehicleReports::announce(const Geolocator& geolocator, io::VehicleLink& lin
   }
 }
 
-void VehicleReports::poll(HostTime now, const Session& session, io::UdpSocket& socket) {
+void VehicleReports::poll(HostTime now, const Session& session, const io::CameraComponent::Send& send) {
   if (!camera_) return;
   const io::LinkStatus link = session.link().status(now);
-  camera_->poll(now, link.vehicle, link.is_v2,
-                [&socket](const std::uint8_t* frame, std::size_t size) { socket.send(frame, size); });
+  camera_->poll(now, link.vehicle, link.is_v2, send);
 }
 
 }  // namespace geoloc::apps

@@ -9,7 +9,6 @@
 
 #include "common/session.hpp"
 #include "geoloc/io/mavlink/camera_component.hpp"
-#include "geoloc/io/mavlink/udp_socket.hpp"
 
 namespace geoloc::apps {
 
@@ -27,7 +26,7 @@ class VehicleReports {
   void on_frame(Session& session, HostTime captured_at);
 
   /// To be called often.
-  void poll(HostTime now, const Session& session, io::UdpSocket& socket);
+  void poll(HostTime now, const Session& session, const io::CameraComponent::Send& send);
 
  private:
   void announce(const Geolocator& geolocator, io::VehicleLink& link);

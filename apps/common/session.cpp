@@ -16,6 +16,14 @@ double time_sigma_s(const PendingFrame& frame, const io::VehicleClockMap& clock)
   return doubt_s > 0.0 ? std::hypot(frame.time_sigma_s, doubt_s) : frame.time_sigma_s;
 }
 
+/// So many of the vehicle's positions in a row tell that the map begins elsewhere.
+constexpr std::uint64_t kFarPositions = 20;
+
+bool has_object(const std::vector<Track>& tracks) {
+  return std::any_of(tracks.begin(), tracks.end(),
+                     [](const Track& track) { return track.status == TrackStatus::kConfirmed; });
+}
+
 }  // namespace
 
 Session::Session(const EstimationConfig& config, OnTelemetry on_telemetry)
@@ -30,6 +38,21 @@ bool Session::add_telemetry(HostTime received_at, const std::uint8_t* data, std:
 
 void Session::on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) {
   if (on_telemetry_) on_telemetry_(received_at, frame, size);
+}
+
+/// The map may have been begun at a place where the vehicle is not. Nothing is lost where it is empty.
+void Session::on_position(const PositionSample& sample) {
+  take(sample);
+  if (geolocator_.state().too_far_in_a_row() >= kFarPositions && !has_object(geolocator_.tracks()))
+    begin_anew();
+}
+
+/// Nothing that was estimated holds.
+void Session::begin_anew() {
+  frames_without_vehicle_ += geolocator_.counters().frames;
+  const GeolocatorConfig config = geolocator_.config();
+  geolocator_ = Geolocator(config);
+  history_ = RunHistory{};
 }
 
 void Session::on_clock_step(Duration) {
@@ -53,7 +76,7 @@ HostTime Session::gives_up_at(HostTime captured_at) const {
 bool Session::process(const PendingFrame& frame) {
   const auto vehicle_time = link_.clock().to_vehicle(frame.captured_at);
   if (!vehicle_time) {
-    ++frames_without_clock_;
+    ++frames_without_vehicle_;
     return false;
   }
   frame_.captured_at = *vehicle_time;

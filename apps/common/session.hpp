@@ -44,9 +44,9 @@ class Session final : private io::TelemetrySink {
   void finish() { geolocator_.finish(); }
 
   /// Frames given to process(), and those of them that had no state.
-  std::uint64_t frames() const { return geolocator_.counters().frames + frames_without_clock_; }
+  std::uint64_t frames() const { return geolocator_.counters().frames + frames_without_vehicle_; }
   std::uint64_t frames_unusable() const {
-    return geolocator_.counters().frames_unusable + frames_without_clock_;
+    return geolocator_.counters().frames_unusable + frames_without_vehicle_;
   }
 
   /// What a user is to be told of the vehicle, since the last call.
@@ -64,11 +64,14 @@ class Session final : private io::TelemetrySink {
 
  private:
   void on_attitude(const AttitudeSample& sample) override { take(sample); }
-  void on_position(const PositionSample& sample) override { take(sample); }
+  void on_position(const PositionSample& sample) override;
   void on_range(const RangeSample& sample) override { geolocator_.add(sample); }
   void on_reboot() override { geolocator_.on_vehicle_reboot(); }
+  void on_other_vehicle() override { begin_anew(); }
   void on_clock_step(Duration change) override;
   void on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) override;
+
+  void begin_anew();
 
   template <typename Sample>
   void take(const Sample& sample) {
@@ -82,8 +85,8 @@ class Session final : private io::TelemetrySink {
   RunHistory history_;
   StateNews news_;
   OnTelemetry on_telemetry_;
-  FrameDetections frame_;                   // reused
-  std::uint64_t frames_without_clock_ = 0;  // before the vehicle's clock was known
+  FrameDetections frame_;                     // reused
+  std::uint64_t frames_without_vehicle_ = 0;  // before its clock was known
 };
 
 }  // namespace geoloc::apps

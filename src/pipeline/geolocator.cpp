@@ -146,6 +146,7 @@ bool Geolocator::Implementation::process(const FrameDetections& frame) {
     return false;
   }
   ++counters.frames_located;
+  state.keep_frame();
   if (config.terrain && ground.is_level())
     ground = GroundModel(config.terrain, *state.local_frame(), config.joint.sigma_ground_m);
   view = lifted(*nominal_view);

@@ -15,6 +15,10 @@ namespace {
 /// One tangent plane serves this far: the turn of north is followed, and lengths are true to 5e-4.
 constexpr double kFrameReach_m = 200e3;
 
+/// Two positions agree where a vehicle may go from one to the other: at a jet's speed, and with the error of
+/// a first fix.
+constexpr double kFirstFixError_m = 100.0, kHighestSpeed_mps = 250.0, kEarthRadius_m = 6.371e6;
+
 /// What a vehicle does between two samples: RMS of what straight lines between decimated samples of the
 /// flights in data/flights are off by, 1 to 5 Hz.
 constexpr double kAcceleration_mps2 = 1.0;
@@ -41,6 +45,20 @@ std::optional<StateSteps> steps_around(VehicleTime time, const StateBuffer<Sampl
   if (!around) return otherwise;
   if (step_in(*around)) return std::nullopt;
   return around->before.steps;
+}
+
+/// From the middle of a round Earth.
+Eigen::Vector3d direction(const Geodetic& point) {
+  const double latitude_rad = point.latitude_deg * kRadPerDeg,
+               longitude_rad = point.longitude_deg * kRadPerDeg;
+  return {std::cos(latitude_rad) * std::cos(longitude_rad), std::cos(latitude_rad) * std::sin(longitude_rad),
+          std::sin(latitude_rad)};
+}
+
+bool agree(const PositionSample& a, const PositionSample& b) {
+  const double pause_s = std::abs(seconds(b.time - a.time));
+  const double distance_m = kEarthRadius_m * (direction(b.position) - direction(a.position)).norm();
+  return distance_m <= kFirstFixError_m + kHighestSpeed_mps * pause_s;
 }
 
 bool is_finite(const EulerAngles& angles) {
@@ -97,6 +115,8 @@ void StateProvider::on_clock_step() {
 void StateProvider::forget_samples() {
   attitudes_.clear();
   positions_.clear();
+  if (unconfirmed_) frame_.reset();
+  unconfirmed_.reset();
   home_.restart();
   watch_.restart();
   anchor_ = steps();  // what the vehicle says of itself from now on is all there is
@@ -124,16 +144,45 @@ void StateProvider::add(const PositionSample& sample) {
     return;
   }
   if (!accept_stamp(sample.time)) return;
-  if (!frame_) {
-    if (sample.height_msl_m && std::isfinite(*sample.height_msl_m))
-      home_height_msl_m_ = *sample.height_msl_m - sample.height_above_home_m;
-    frame_.emplace(sample.position, home_height_msl_m_.value_or(0.0));
-  }
+  if (unconfirmed_ && sample.time != unconfirmed_->time) judge_beginning(sample);
+  if (!frame_) begin_frame(sample);
+  take(sample);
+}
+
+/// By the second position of a frame: does it agree with the first?
+void StateProvider::judge_beginning(const PositionSample& second) {
+  const bool is_confirmed = agree(*unconfirmed_, second);
+  unconfirmed_.reset();
+  if (is_confirmed) return;
+  ++counters_.unconfirmed;
+  frame_.reset();
+  home_height_msl_m_.reset();
+  positions_.clear();
+  home_.restart();
+  watch_.restart();
+}
+
+void StateProvider::begin_frame(const PositionSample& first) {
+  unconfirmed_ = first;
+  if (first.height_msl_m && std::isfinite(*first.height_msl_m))
+    home_height_msl_m_ = *first.height_msl_m - first.height_above_home_m;
+  frame_.emplace(first.position, home_height_msl_m_.value_or(0.0));
+}
+
+void StateProvider::keep_frame() {
+  unconfirmed_.reset();
+}
+
+void StateProvider::take(const PositionSample& sample) {
   const LocalPoint local = frame_->to_local(sample.position);
   if (!(local.position_in_enu.norm() < kFrameReach_m)) {
     ++counters_.too_far;
+    ++too_far_in_a_row_;
+    position_use_ = PositionUse::kTooFar;
     return;
   }
+  too_far_in_a_row_ = 0;
+  position_use_ = unconfirmed_ ? PositionUse::kUnconfirmed : PositionUse::kTaken;
   LocalPosition position;
   position.position_in_enu << local.position_in_enu,
       home_.above_first_home_m(sample.time, sample.height_above_home_m, sample.height_msl_m);

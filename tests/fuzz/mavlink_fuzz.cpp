@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
+#include <string>
 #include <vector>
 
 #include "geoloc/io/mavlink/camera_component.hpp"
+#include "geoloc/io/mavlink/link_guard.hpp"
 #include "geoloc/io/mavlink/message_table.hpp"
 #include "geoloc/io/mavlink/vehicle_link.hpp"
 
@@ -113,14 +115,54 @@ void play(const Bytes& stream, std::size_t piece) {
   require(status.frames.junk_bytes <= stream.size());
 }
 
+/// The door of a live link: pieces from two sources in turn, with a key and without.
+void pass_guard(const Bytes& stream, std::size_t piece) {
+  const io::LinkSigning signing(io::SigningKey{}, {});
+  for (io::LinkGuard guard : {io::LinkGuard({}), io::LinkGuard({}, signing)}) {
+    io::VehicleLink link{io::MavlinkConfig{}};
+    DistrustfulSink sink;
+    HostTime now{std::chrono::hours{24 * 365 * 57}};
+    const auto send = [&](const std::uint8_t* frame, std::size_t size) {
+      const io::OutgoingFrame sent = guard.outgoing(now, frame, size);
+      require(sent.size == size + (guard.signing_stamps() ? 13 : 0) || frame[0] == 0xFE);
+    };
+    std::uint64_t admitted = 0;
+    for (std::size_t at = 0; at < stream.size(); at += piece) {
+      io::LinkSource source;
+      source.port = static_cast<std::uint16_t>(at / piece % 2);
+      guard.receive(now, source, &stream[at], std::min(piece, stream.size() - at),
+                    [&](const std::uint8_t* frame, std::size_t size) {
+                      ++admitted;
+                      require(!guard.signing_stamps() || (frame[2] & 1) != 0);
+                      link.consume(now, frame, size, sink);
+                    });
+      link.poll(now, send);
+      now += 50ms;
+    }
+    require(guard.counts().admitted == admitted && link.status(now).frames.frames == admitted);
+  }
+}
+
+void read_texts(const Bytes& bytes) {
+  const std::string text(bytes.begin(), bytes.end());
+  io::parse_signing_key(text);
+  const auto stamps = io::parse_signing_stamps(text);
+  require(!stamps || io::parse_signing_stamps(io::to_text(*stamps)) == stamps);
+}
+
 }  // namespace
 
-/// Fuzzes framing, decoding, the link's state, its answers and those of a camera. The first byte sets the
-/// size of the pieces in which the rest arrives, and whether the rest is raw bytes or messages to be framed.
+/// Fuzzes framing, decoding, the link's state, its answers and those of a camera, and the link's door with
+/// its key's and stamps' files. The first byte sets the size of the pieces in which the rest arrives, and
+/// whether the rest is raw bytes or messages to be framed.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   constexpr std::uint8_t kFramedFlag = 0x80;
   const std::size_t piece = 1 + (data[0] & 0x7F);
-  play((data[0] & kFramedFlag) != 0 ? framed(data + 1, size - 1) : Bytes(data + 1, data + size), piece);
+  const Bytes input(data + 1, data + size);
+  const Bytes stream = (data[0] & kFramedFlag) != 0 ? framed(data + 1, size - 1) : input;
+  play(stream, piece);
+  pass_guard(stream, piece);
+  read_texts(input);
   return 0;
 }

@@ -113,12 +113,13 @@ TEST(StateProvider, RefusesWhatIsNoNumberAndNoPlace) {
   bad = position(1, 0, nan);
   provider.add(bad);
   provider.add(position(1, 0, 20));
-  bad = position(1.1, 0, 20);
+  provider.add(position(1.1, 0, 20));
+  bad = position(1.2, 0, 20);
   bad.position.longitude_deg = 10.0;  // the other side of the Atlantic
   provider.add(bad);
   EXPECT_EQ(provider.counters().invalid, 3U);
   EXPECT_EQ(provider.counters().too_far, 1U);
-  EXPECT_EQ(provider.counters().positions, 1U);
+  EXPECT_EQ(provider.counters().positions, 2U);
 }
 
 TEST(StateProvider, TurnsNorthWithTheMeridian) {
@@ -127,15 +128,17 @@ TEST(StateProvider, TurnsNorthWithTheMeridian) {
   PositionSample sample;
   sample.position = {60.0, 10.0};
   sample.height_above_home_m = 100.0;
-  sample.time = at_s(0);
-  provider.add(sample);
-  for (int i = 1; i <= 3; ++i) {
+  for (int i = 0; i < 2; ++i) {
+    sample.time = at_s(0.1 * i);
+    provider.add(sample);
+  }
+  for (int i = 2; i <= 4; ++i) {
     sample.time = at_s(i * 0.1);
     sample.position.longitude_deg = 10.0 + 10e3 / 55800.0;
     provider.add(sample);
     provider.add(AttitudeSample{sample.time, {0, 0, 0}});
   }
-  const auto state = provider.at(at_s(0.25));
+  const auto state = provider.at(at_s(0.35));
   ASSERT_TRUE(state);
   const Eigen::Vector3d nose = state->enu_from_body.rotation * Eigen::Vector3d::UnitX();
   EXPECT_NEAR(std::atan2(nose.x(), nose.y()) * kDegPerRad, -0.155, 0.001);
@@ -144,11 +147,58 @@ TEST(StateProvider, TurnsNorthWithTheMeridian) {
 TEST(StateProvider, RefusesPositionsBeyondTheReachOfOneFrame) {
   StateProvider provider(StateConfig{});
   provider.add(position(0.0, 0, 20));
-  provider.add(position(0.1, 199e3, 20));
+  provider.add(position(0.1, 0, 20));
+  provider.add(position(0.2, 199e3, 20));
   EXPECT_EQ(provider.counters().too_far, 0U);
-  provider.add(position(0.2, 202e3, 20));
+  for (const double time_s : {0.3, 0.4}) provider.add(position(time_s, 202e3, 20));
+  EXPECT_EQ(provider.counters().too_far, 2U);
+  EXPECT_EQ(provider.counters().positions, 3U);
+  EXPECT_EQ(provider.position_use(), StateProvider::PositionUse::kTooFar);
+  EXPECT_EQ(provider.too_far_in_a_row(), 2U);
+  provider.add(position(0.5, 0, 20));
+  EXPECT_EQ(provider.position_use(), StateProvider::PositionUse::kTaken);
+  EXPECT_EQ(provider.too_far_in_a_row(), 0U);
+}
+
+TEST(StateProvider, BeginsItsFrameWhereTwoPositionsAgree) {
+  StateProvider provider(StateConfig{});
+  EXPECT_EQ(provider.position_use(), StateProvider::PositionUse::kNone);
+  const PositionSample far = position(0.0, 300e3, 20);
+  provider.add(far);
+  provider.add(far);  // the same once more is no second one
+  EXPECT_EQ(provider.position_use(), StateProvider::PositionUse::kUnconfirmed);
+  PositionSample antipode = position(0.1, 0, 20);
+  antipode.position = {-kHome.latitude_deg, kHome.longitude_deg + 180.0};
+  provider.add(antipode);
+  for (int i = 2; i <= 10; ++i) {
+    provider.add(position(0.1 * i, 5.0 * 0.1 * (i - 2), 20));
+    provider.add(AttitudeSample{at_s(0.1 * i), {}});
+  }
+  EXPECT_EQ(provider.position_use(), StateProvider::PositionUse::kTaken);
+  EXPECT_EQ(provider.local_frame()->origin().latitude_deg, kHome.latitude_deg);
+  EXPECT_EQ(provider.counters().unconfirmed, 2U);
+  EXPECT_EQ(provider.counters().too_far, 0U);
+  const auto state = provider.at(at_s(0.25));
+  ASSERT_TRUE(state);
+  EXPECT_NEAR(state->enu_from_body.translation.y(), 0.25, 1e-2);
+  EXPECT_EQ(state->steps.segment, 0U);
+  EXPECT_EQ(provider.at(at_s(0.15)).error(), NoState::kTooOld) << "nothing is known from the false ones";
+}
+
+TEST(StateProvider, ForgetsAnUnconfirmedPositionWithTheClockItIsOf) {
+  StateProvider provider(StateConfig{});
+  provider.add(position(100.0, 0, 20));
+  provider.restart();
+  EXPECT_FALSE(provider.local_frame());
+}
+
+TEST(StateProvider, KeepsAFrameThatSomethingWasLocatedIn) {
+  StateProvider provider(StateConfig{});
+  provider.add(position(0.0, 0, 20));
+  provider.keep_frame();
+  provider.add(position(0.1, 300e3, 20));
+  EXPECT_EQ(provider.local_frame()->origin().latitude_deg, kHome.latitude_deg);
   EXPECT_EQ(provider.counters().too_far, 1U);
-  EXPECT_EQ(provider.counters().positions, 2U);
 }
 
 TEST(StateProvider, KeepsItsFrameWhereItBegan) {

@@ -33,6 +33,9 @@ class BootClockMonitor {
     return verdict;
   }
 
+  /// Whether observe() would take it without further ones.
+  bool is_near_newest(VehicleTime stamp) const { return newest_ && is_near(stamp, *newest_); }
+
  private:
   /// Longer than any link holds a packet back, shorter than an autopilot takes to boot and fly. The same both
   /// ways: a smaller stray step ahead must leave the stamps that follow it near.

@@ -37,7 +37,9 @@ struct WithSteps {
 };
 
 /// Interpolates the asynchronous position and attitude of the vehicle (paper, section 3.2). The local frame's
-/// origin is the first position. A reboot of the vehicle empties the buffers; the frame stays.
+/// origin is the first position. Where the next one lies farther from it than any vehicle goes in the time
+/// between, one of the two is false: the frame begins anew, until two agree. A reboot of the vehicle empties
+/// the buffers; the frame stays.
 ///
 /// Where the vehicle's own state steps, states go on as before the step, and there is none between the two
 /// samples. Heights are above the first home.
@@ -50,6 +52,7 @@ class StateProvider {
     std::uint64_t stale = 0;           ///< older than all that is kept, or late where the state steps
     std::uint64_t invalid = 0;         ///< not finite, or no place on Earth
     std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
+    std::uint64_t unconfirmed = 0;     ///< at the start, with which the next one did not agree
     std::uint64_t suspect_stamps = 0;  ///< far from the others' times
     std::uint64_t reboots = 0;
     std::uint64_t home_moves = 0;      ///< after the take-off
@@ -78,8 +81,23 @@ class StateProvider {
   /// knows, so that those so far are forgotten.
   void on_clock_step();
 
-  /// Set by the first position.
+  /// Set by the first position, for good by one that agrees with it.
   const std::optional<LocalFrame>& local_frame() const { return frame_; }
+
+  /// Something was located: the frame stays where it is.
+  void keep_frame();
+
+  /// What becomes of positions now.
+  enum class PositionUse {
+    kNone,         ///< none has come
+    kUnconfirmed,  ///< the last one began the local frame and waits for another that agrees
+    kTooFar,       ///< the last one lies beyond the reach of the local frame
+    kTaken
+  };
+  PositionUse position_use() const { return position_use_; }
+
+  /// So many positions in a row were beyond the reach of the local frame.
+  std::uint64_t too_far_in_a_row() const { return too_far_in_a_row_; }
 
   /// Height of home above mean sea level, as of the first position; nullopt where that told none.
   const std::optional<double>& home_height_msl_m() const { return home_height_msl_m_; }
@@ -98,11 +116,17 @@ class StateProvider {
   };
 
   bool accept_stamp(VehicleTime stamp);
+  void judge_beginning(const PositionSample& second);
+  void begin_frame(const PositionSample& first);
+  void take(const PositionSample& sample);
   Expected<Brackets, NoState> brackets(VehicleTime time) const;
   void forget_samples();
 
   StateConfig config_;
   std::optional<LocalFrame> frame_;
+  std::optional<PositionSample> unconfirmed_;  // the one that began the frame, until another agrees
+  PositionUse position_use_ = PositionUse::kNone;
+  std::uint64_t too_far_in_a_row_ = 0;
   std::optional<double> home_height_msl_m_;
   HomeDatum home_;
   StepWatch watch_;

@@ -17,8 +17,9 @@ constexpr std::uint32_t kInformation = 259, kFieldOfView = 271, kTracking = 276;
 constexpr Duration kLeastPeriod = 100ms;  // whatever is requested, because the link is the vehicle's
 constexpr Duration kLongestPeriod = 1h;
 constexpr Duration kViewLasts = 3s;
-constexpr std::size_t kMostReplies = 16;  // a flood of commands is not answered
-constexpr double kReach = 0.1;            // of the image: a point selects an object that is nearer
+constexpr std::size_t kMostReplies = 16;    // waiting, or in a row; the others of a flood have none
+constexpr double kRepliesPerSecond = 10.0;  // in the long run
+constexpr double kReach = 0.1;              // of the image: a point selects an object that is nearer
 
 /// A message's number in a command's parameter; nullopt if it is not valid.
 std::optional<std::uint32_t> message_number(float parameter) {
@@ -28,6 +29,9 @@ std::optional<std::uint32_t> message_number(float parameter) {
 }
 
 }  // namespace
+
+CameraComponent::CameraComponent(std::uint8_t component_id, const CameraIntrinsics& image)
+    : component_id_(component_id), image_(image), replies_allowed_(kMostReplies) {}
 
 void CameraComponent::consume(const std::uint8_t* frame, std::size_t size) {
   while (size > 0) {
@@ -50,7 +54,20 @@ void CameraComponent::obey(const Command& command, MavAddress sender) {
   reply.to = sender;
   reply.command = command.command;
   if (is_for_all && reply.result != kAccepted) return;  // another component may support it
-  if (replies_.size() < kMostReplies) replies_.push_back(reply);
+  queue(reply);
+}
+
+/// One answer to a command that is repeated before it was answered, so that it leaves room for others'.
+void CameraComponent::queue(const Reply& reply) {
+  const auto same = std::find_if(replies_.begin(), replies_.end(), [&](const Reply& waiting) {
+    return waiting.to == reply.to && waiting.command == reply.command &&
+           waiting.message_id == reply.message_id;
+  });
+  if (same != replies_.end()) {
+    *same = reply;
+  } else if (replies_.size() < kMostReplies) {
+    replies_.push_back(reply);
+  }
 }
 
 CameraComponent::Reply CameraComponent::answer(const Command& command) {
@@ -148,6 +165,19 @@ void CameraComponent::send_message(std::uint32_t message_id, MavAddress self, co
   if (message_id == kTracking && view_) write(writer_.tracking(self, tracked()));
 }
 
+void CameraComponent::send_replies(HostTime now, MavAddress self, const Send& send) {
+  const double pause_s = replies_allowed_at_ ? std::max(0.0, seconds(now - *replies_allowed_at_)) : 0.0;
+  replies_allowed_at_ = now;
+  replies_allowed_ = std::min<double>(kMostReplies, replies_allowed_ + kRepliesPerSecond * pause_s);
+  for (; !replies_.empty() && replies_allowed_ >= 1.0; replies_allowed_ -= 1.0) {
+    const Reply reply = replies_.front();
+    replies_.pop_front();
+    const OutgoingFrame ack = writer_.command_ack(self, reply.to, reply.command, reply.result);
+    send(ack.bytes.data(), ack.size);
+    if (reply.message_id) send_message(*reply.message_id, self, send);
+  }
+}
+
 void CameraComponent::poll(HostTime now, const std::optional<MavAddress>& vehicle, bool is_v2,
                            const Send& send) {
   if (!vehicle || !is_v2) return;
@@ -158,11 +188,7 @@ void CameraComponent::poll(HostTime now, const std::optional<MavAddress>& vehicl
     last_heartbeat_ = now;
     write(writer_.heartbeat(self));
   }
-  for (const Reply& reply : replies_) {
-    write(writer_.command_ack(self, reply.to, reply.command, reply.result));
-    if (reply.message_id) send_message(*reply.message_id, self, send);
-  }
-  replies_.clear();
+  send_replies(now, self, send);
   for (Stream* stream : {&tracking_, &field_of_view_}) {
     if (!stream->period || !is_due(stream->sent_at, *stream->period, now) || !has_fresh_view(now)) continue;
     if (stream == &tracking_ && tracked() == nullptr)

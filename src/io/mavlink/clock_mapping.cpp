@@ -194,6 +194,10 @@ std::optional<Duration> VehicleClockMap::lead(Duration offset) const {
   return std::nullopt;
 }
 
+bool VehicleClockMap::is_early(VehicleTime stamp, HostTime received_at) const {
+  return is_sane(stamp) && is_sane(received_at) && lead(difference(stamp, received_at)).has_value();
+}
+
 void VehicleClockMap::take_stamp_from_the_future(Duration lead, HostTime received_at) {
   if (stamps_from_the_future_ == 0) {
     future_since_ = received_at;

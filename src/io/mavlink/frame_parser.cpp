@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "checksum.hpp"
 #include "geoloc/io/mavlink/message_table.hpp"
 
 namespace geoloc::io {
@@ -18,20 +19,6 @@ constexpr std::uint8_t kSignedFlag =
     0x01;  // the only defined incompatibility flag; a frame with another one cannot be read
 
 enum class Finding { kFrame, kBadFrame, kUnknownMessage, kNoFrame, kNeedsMoreBytes };
-
-/// CRC-16/MCRF4XX, MAVLink's checksum.
-class Checksum {
- public:
-  void add(std::uint8_t byte) {
-    auto mixed = static_cast<std::uint8_t>(byte ^ (value_ & 0xFF));
-    mixed = static_cast<std::uint8_t>(mixed ^ (mixed << 4));
-    value_ = static_cast<std::uint16_t>((value_ >> 8) ^ (mixed << 8) ^ (mixed << 3) ^ (mixed >> 4));
-  }
-  std::uint16_t value() const { return value_; }
-
- private:
-  std::uint16_t value_ = 0xFFFF;
-};
 
 /// Interprets the bytes as a frame by the header alone; kNoFrame if they cannot be one.
 Finding read_header(const std::uint8_t* bytes, std::size_t available, Frame& frame) {

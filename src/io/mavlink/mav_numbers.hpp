@@ -3,8 +3,11 @@
 
 #include <cstdint>
 
-// Values of MAV_CMD and MAV_RESULT, for files that would otherwise need the large generated headers.
+// Values of MAV_COMPONENT, MAV_CMD and MAV_RESULT, for files that would otherwise need the large generated
+// headers.
 namespace geoloc::io {
+
+inline constexpr std::uint8_t kAutopilotComponent = 1;
 
 inline constexpr std::uint16_t kSetMessageInterval = 511;
 inline constexpr std::uint16_t kRequestMessage = 512;

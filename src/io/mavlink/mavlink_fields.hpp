@@ -10,7 +10,7 @@ template <class Visitor>
 void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
   constexpr Range kRate = Range::closed(1, 50);
   v.field("system_id", mavlink.system_id, Range::closed(0, 255), "",
-          "MAVLink system of the vehicle; 0: the first autopilot heard");
+          "MAVLink system of the vehicle; 0: the autopilot that sends its attitude and position");
   v.field("component_id", mavlink.component_id, Range::closed(2, 255), "",
           "Our own component in that system: 1 is the autopilot, 191 an onboard computer");
   v.field("attitude_rate_hz", mavlink.attitude_rate_hz, kRate, "Hz", "Rate at which attitudes are requested");
@@ -19,6 +19,13 @@ void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
           "Rate at which DISTANCE_SENSOR is requested; 0: it is not, but used where it comes");
   v.field("link_timeout_s", mavlink.link_timeout_s, Range::closed(0.5, 60), "s",
           "After this silence everything is requested anew");
+  v.field("signing_key_file", mavlink.signing_key_file, Any{}, "",
+          "Key of MAVLink's message signing, 32 bytes or 64 hexadecimal digits: what is not signed by it is "
+          "refused, "
+          "what is sent is signed; empty: no signing");
+  v.field(
+      "signing_state_file", mavlink.signing_state_file, Any{}, "",
+      "Where the last signed stamps are kept over restarts; empty: the key's file with .stamps at its end");
   v.field("camera", mavlink.camera, Any{}, "",
           "Be a camera component that tells ground stations where objects are (docs/outputs.md)");
   v.field("camera_component_id", mavlink.camera_component_id, Range::closed(100, 105), "",

@@ -102,6 +102,10 @@ Message decode_gnss_status(const Frame& frame) {
   return status;
 }
 
+Message estimator_status(std::uint16_t flags, int glitch_flag) {
+  return EstimatorStatus{flags, (flags & glitch_flag) != 0};
+}
+
 Message decode_timesync(const Frame& frame) {
   const auto fields = unpack(frame, mavlink_msg_timesync_decode);
   Timesync timesync{fields.tc1, fields.ts1, {}};
@@ -153,9 +157,9 @@ Message decode(const Frame& frame) {
     case MAVLINK_MSG_ID_GPS_RAW_INT:
       return decode_gnss_status(frame);
     case MAVLINK_MSG_ID_EKF_STATUS_REPORT:
-      return EstimatorStatus{unpack(frame, mavlink_msg_ekf_status_report_decode).flags};
+      return estimator_status(unpack(frame, mavlink_msg_ekf_status_report_decode).flags, EKF_GPS_GLITCHING);
     case MAVLINK_MSG_ID_ESTIMATOR_STATUS:
-      return EstimatorStatus{unpack(frame, mavlink_msg_estimator_status_decode).flags};
+      return estimator_status(unpack(frame, mavlink_msg_estimator_status_decode).flags, ESTIMATOR_GPS_GLITCH);
     case MAVLINK_MSG_ID_TIMESYNC:
       return decode_timesync(frame);
     case MAVLINK_MSG_ID_SYSTEM_TIME:

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/mavlink/udp_socket.hpp"
 
+#include <arpa/inet.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <memory>
 #include <stdexcept>
 #include <system_error>
@@ -17,6 +20,7 @@ namespace geoloc::io {
 namespace {
 
 constexpr std::size_t kLargestDatagram = 65536;
+constexpr std::size_t kMapped = 12;  // bytes before an IPv4 address in one of IPv6
 
 using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
@@ -68,6 +72,35 @@ UdpEndpoint parse_udp_endpoint(const std::string& text) {
   const auto endpoint = parse_endpoint(text, UdpEndpoint{}.host);
   if (!endpoint) throw std::invalid_argument("'" + text + "' is not PORT, HOST:PORT or [IPV6]:PORT");
   return {endpoint->host, endpoint->port};
+}
+
+LinkSource source_of(const UdpPeer& peer) {
+  LinkSource source;
+  if (peer.address.ss_family == AF_INET6) {
+    const auto& address = reinterpret_cast<const sockaddr_in6&>(peer.address);
+    std::copy_n(address.sin6_addr.s6_addr, source.address.size(), source.address.begin());
+    source.port = ntohs(address.sin6_port);
+  } else if (peer.address.ss_family == AF_INET) {
+    const auto& address = reinterpret_cast<const sockaddr_in&>(peer.address);
+    source.address[kMapped - 2] = source.address[kMapped - 1] = 0xFF;
+    std::memcpy(&source.address[kMapped], &address.sin_addr, sizeof address.sin_addr);
+    source.port = ntohs(address.sin_port);
+  }
+  return source;
+}
+
+std::string to_string(const LinkSource& source) {
+  in6_addr address{};
+  std::copy(source.address.begin(), source.address.end(), address.s6_addr);
+  const bool is_v4 = IN6_IS_ADDR_V4MAPPED(&address);
+  char text[INET6_ADDRSTRLEN] = {};
+  if (is_v4) {
+    inet_ntop(AF_INET, &source.address[kMapped], text, sizeof text);
+  } else {
+    inet_ntop(AF_INET6, &address, text, sizeof text);
+  }
+  const std::string host = is_v4 ? text : "[" + std::string(text) + "]";
+  return host + ":" + std::to_string(source.port);
 }
 
 UdpSocket::UdpSocket(const UdpEndpoint& endpoint)

@@ -14,7 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr std::uint8_t kAutopilotComponent = 1;  // MAV_COMP_ID_AUTOPILOT1
 /// The clock is needed soon after start and reboot; after that it only drifts.
 constexpr Duration kFastTimesyncPeriod = 100ms;
 constexpr Duration kTimesyncPeriod = 1s;
@@ -25,9 +24,6 @@ constexpr std::size_t kMostTexts = 20;  // waiting; older ones would be out of d
 constexpr Duration kEulerSilence = 1s;
 /// For this long after a DISTANCE_SENSOR, RANGEFINDER adds nothing new.
 constexpr Duration kRangeSilence = 2s;
-/// Recordings keep whole microseconds. In a vehicle's answer, the digits below those show that the request
-/// was ours.
-constexpr std::int64_t kNanosecondsPerStamp = 1000;
 
 std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot) {
   constexpr std::uint32_t kSystemTime = 2, kGpsRawInt = 24, kAttitude = 30, kGlobalPositionInt = 33;
@@ -55,7 +51,7 @@ void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
 
 }  // namespace
 
-VehicleLink::VehicleLink(const MavlinkConfig& config) : config_(config) {
+VehicleLink::VehicleLink(const MavlinkConfig& config) : config_(config), choice_(config.system_id) {
   throw_if_any(config.problems());
 }
 
@@ -75,8 +71,8 @@ bool VehicleLink::consume(HostTime received_at, const std::uint8_t* data, std::s
 bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
   arrival.sink.on_frame(arrival.at, frame.bytes, frame.size);
   const Message message = decode(frame);
-  if (!vehicle_) choose_vehicle(frame, message, arrival.at);
-  if (!vehicle_ || frame.sender != *vehicle_) {
+  if (choice_.observe(frame, message, arrival.at)) begin_with_vehicle(arrival);
+  if (frame.sender != choice_.vehicle()) {
     ++counts_.foreign_frames;
     return false;
   }
@@ -89,17 +85,41 @@ bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
   return true;
 }
 
-void VehicleLink::choose_vehicle(const Frame& frame, const Message& message, HostTime received_at) {
-  const auto* const heartbeat = std::get_if<Heartbeat>(&message);
-  if (heartbeat == nullptr || !heartbeat->is_from_autopilot()) return;
-  if (frame.sender.component != kAutopilotComponent) return;
-  if (config_.system_id != 0 && config_.system_id != frame.sender.system) return;
-  vehicle_ = frame.sender;
-  last_heard_ = received_at;
-  requests_.want(wanted_streams(config_, heartbeat->is_from_ardupilot()), received_at);
+/// What was learnt of another vehicle does not hold for this one.
+void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
+  boot_clock_ = BootClockMonitor{};
+  clock_.restart();
+  gate_ = PositionGate{};
+  last_attitude_.reset();
+  last_euler_attitude_.reset();
+  last_position_.reset();
+  last_refusal_.reset();
+  last_stamped_range_.reset();
+  last_heard_ = arrival.at;
+  fast_timesyncs_ = 0;
+  requests_.want(wanted_streams(config_, choice_.is_ardupilot()), arrival.at);
+  if (has_delivered_) arrival.sink.on_other_vehicle();
+  has_delivered_ = false;
+}
+
+/// Before its own stamp no message comes. It is dropped, unless others confirm that the clock has stepped: a
+/// sample from the future would be waited for, and hide those that come until then.
+bool VehicleLink::accept_early_stamp(VehicleTime stamp, const Arrival& arrival) {
+  const std::uint64_t steps_before = clock_.counts().steps;
+  clock_.add_arrival(stamp, arrival.at);
+  if (clock_.counts().steps == steps_before) {
+    ++counts_.suspect_stamps;
+    return false;
+  }
+  boot_clock_ = BootClockMonitor{};
+  boot_clock_.observe(stamp);
+  tell_of_clock_step(steps_before, arrival);
+  return true;
 }
 
 bool VehicleLink::accept_stamp(VehicleTime stamp, const Arrival& arrival) {
+  if (boot_clock_.is_near_newest(stamp) && clock_.is_early(stamp, arrival.at))
+    return accept_early_stamp(stamp, arrival);
   switch (boot_clock_.observe(stamp)) {
     case BootClockMonitor::Verdict::kSuspect:
       ++counts_.suspect_stamps;
@@ -136,12 +156,14 @@ void VehicleLink::handle(const AttitudeMessage& message, const Arrival& arrival)
   ++counts_.attitudes;
   last_attitude_ = arrival.at;
   attitude_meter_.add(arrival.at);
+  has_delivered_ = true;
   arrival.sink.on_attitude(message.sample);
 }
 
 void VehicleLink::handle(const PositionSample& message, const Arrival& arrival) {
   if (!accept_stamp(message.time, arrival)) return;
-  if (!gate_.admits(message.position)) {
+  last_refusal_ = gate_.refusal(message.position, arrival.at);
+  if (last_refusal_) {
     ++counts_.no_fix_positions;
     return;
   }
@@ -149,7 +171,8 @@ void VehicleLink::handle(const PositionSample& message, const Arrival& arrival) 
   last_position_ = arrival.at;
   position_meter_.add(arrival.at);
   PositionSample sample = message;
-  if (gate_.gnss()) sample.sigma_horizontal_m = gate_.gnss()->sigma_horizontal_m;
+  sample.sigma_horizontal_m = gate_.sigma_horizontal_m(arrival.at);
+  has_delivered_ = true;
   arrival.sink.on_position(sample);
 }
 
@@ -186,7 +209,7 @@ void VehicleLink::handle(const CommandAck& message, const Arrival& arrival) {
 }
 
 void VehicleLink::poll(HostTime now, const Send& send) {
-  if (!vehicle_) return;
+  if (!choice_.vehicle()) return;
   writer_.use_v2(is_v2_);
   if (is_due(last_heartbeat_, kHeartbeatPeriod, now)) {
     last_heartbeat_ = now;
@@ -222,10 +245,11 @@ void VehicleLink::send_timesync(HostTime now, const Send& send) {
 void VehicleLink::send_requests(HostTime now, const Send& send) {
   while (const auto request = requests_.next(now)) {
     const WantedStream& stream = request->stream;
-    send_frame(request->method == StreamRequest::Method::kDataStream
-                   ? writer_.request_data_stream(self(), *vehicle_, stream.data_stream, stream.rate_hz)
-                   : writer_.set_message_interval(self(), *vehicle_, stream.message_id, stream.rate_hz),
-               send);
+    send_frame(
+        request->method == StreamRequest::Method::kDataStream
+            ? writer_.request_data_stream(self(), *choice_.vehicle(), stream.data_stream, stream.rate_hz)
+            : writer_.set_message_interval(self(), *choice_.vehicle(), stream.message_id, stream.rate_hz),
+        send);
   }
 }
 
@@ -235,7 +259,7 @@ void VehicleLink::ask_anew(HostTime now) {
 }
 
 MavAddress VehicleLink::self() const {
-  return {vehicle_->system, static_cast<std::uint8_t>(config_.component_id)};
+  return {choice_.vehicle()->system, static_cast<std::uint8_t>(config_.component_id)};
 }
 
 /// Senders that do not state whom they answer leave 0.
@@ -250,16 +274,19 @@ bool VehicleLink::is_alive(HostTime now) const {
 
 LinkStatus VehicleLink::status(HostTime now) const {
   LinkStatus status;
-  status.vehicle = vehicle_;
+  status.vehicle = choice_.vehicle();
+  status.other_system = choice_.other_system(now);
   status.is_v2 = is_v2_;
-  if (gate_.gnss()) status.fix_type = gate_.gnss()->fix_type;
+  status.fix_type = gate_.fix_type();
+  status.position_refusal = gate_.veto(now) ? gate_.veto(now) : last_refusal_;
+  status.has_gnss_glitch = gate_.has_gnss_glitch(now);
   status.attitude_rate_hz = attitude_meter_.rate_hz(now);
   status.position_rate_hz = position_meter_.rate_hz(now);
   status.since_attitude = since(last_attitude_, now);
   status.since_position = since(last_position_, now);
   status.clock_source = clock_.source();
   status.clock_error_bound = clock_.error_bound();
-  if (vehicle_) status.lost_frames = parser_.sequences().lost(*vehicle_);
+  if (status.vehicle) status.lost_frames = parser_.sequences().lost(*status.vehicle);
   status.frames = parser_.counts();
   status.telemetry = counts_;
   status.clock = clock_.counts();

@@ -143,6 +143,29 @@ TEST_F(CameraComponentTest, AFloodOfCommandsIsNotAnswered) {
   EXPECT_LE(poll(0s).size(), 2U * 16U);
 }
 
+TEST_F(CameraComponentTest, AnswersHaveABudgetPerSecondHoweverManyAsk) {
+  std::size_t bytes = 0;
+  int acknowledged = 0, of_the_other = 0;
+  FrameFactory other({254, 190});
+  for (auto after = 0ms; after < 10s; after += 10ms) {
+    for (int i = 0; i < 30; ++i) command(MAV_CMD_REQUEST_MESSAGE, 259.0F);
+    if (after % 1s == 0s) {
+      const auto frame = other.command_long(MAV_CMD_REQUEST_MESSAGE, kCamera, 259.0F, 0.0F);
+      camera_.consume(frame.data(), frame.size());
+    }
+    for (const mavlink_message_t& message : poll(after)) {
+      bytes += message.len + 12U;
+      if (message.msgid != MAVLINK_MSG_ID_COMMAND_ACK) continue;
+      ++acknowledged;
+      of_the_other += mavlink_msg_command_ack_get_target_system(&message) == 254 ? 1 : 0;
+    }
+  }
+  EXPECT_LE(acknowledged, 16 + 100) << "of 30 000";
+  EXPECT_GE(acknowledged, 100);
+  EXPECT_EQ(of_the_other, 10) << "a flood of one sender leaves room for others";
+  EXPECT_LT(bytes / 10, 4000U) << "a second";
+}
+
 TEST_F(CameraComponentTest, ObeysNothingThatIsNotForIt) {
   command(MAV_CMD_CAMERA_STOP_TRACKING, 0.0F, 0.0F, {1, 100});
   command(MAV_CMD_REQUEST_MESSAGE, 259.0F, 0.0F, {2, 105});

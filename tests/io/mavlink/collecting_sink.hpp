@@ -23,6 +23,7 @@ class CollectingSink : public TelemetrySink {
     attitudes_before_reboot.push_back(attitudes.size());
     reboots_at.push_back(frames.back().at);
   }
+  void on_other_vehicle() override { ++other_vehicles; }
   void on_clock_step(Duration change) override { clock_steps.push_back(change); }
   void on_frame(HostTime at, const std::uint8_t* frame, std::size_t size) override {
     frames.push_back({at, Bytes(frame, frame + size)});
@@ -35,6 +36,7 @@ class CollectingSink : public TelemetrySink {
   std::vector<ReceivedFrame> frames;
   std::vector<HostTime> reboots_at;
   std::vector<Duration> clock_steps;
+  int other_vehicles = 0;
 };
 
 }  // namespace geoloc::io::testing

@@ -21,11 +21,39 @@ Bytes to_bytes(const mavlink_message_t& message) {
   return bytes;
 }
 
+mavlink_signing_t signing_by(const std::array<std::uint8_t, 32>& key) {
+  mavlink_signing_t signing{};
+  std::copy(key.begin(), key.end(), signing.secret_key);
+  return signing;
+}
+
 }  // namespace
+
+bool is_signed_by(const std::array<std::uint8_t, 32>& key, const Bytes& frame) {
+  mavlink_signing_t signing = signing_by(key);
+  mavlink_signing_streams_t streams{};
+  mavlink_message_t buffer{}, message{};
+  mavlink_status_t state{}, status{};
+  state.signing = &signing;
+  state.signing_streams = &streams;
+  int complete = 0;
+  for (const std::uint8_t byte : frame)
+    complete +=
+        mavlink_frame_char_buffer(&buffer, &state, byte, &message, &status) == MAVLINK_FRAMING_OK ? 1 : 0;
+  return complete == 1 && (message.incompat_flags & MAVLINK_IFLAG_SIGNED) != 0;
+}
 
 template <typename Encode, typename Fields>
 Bytes FrameFactory::pack(Encode encode, const Fields& fields) {
   mavlink_status_t status{};
+  mavlink_signing_t signing{};
+  if (signature_) {
+    signing = signing_by(signature_->key);
+    signing.flags = MAVLINK_SIGNING_FLAG_SIGN_OUTGOING;
+    signing.link_id = signature_->link;
+    signing.timestamp = signature_->stamp++;
+    status.signing = &signing;
+  }
   status.flags = use_v2_ ? 0 : MAVLINK_STATUS_FLAG_OUT_MAVLINK1;
   status.current_tx_seq = sequence_++;
   mavlink_message_t message{};
@@ -96,6 +124,12 @@ Bytes FrameFactory::ekf_status(std::uint16_t flags) {
   mavlink_ekf_status_report_t fields{};
   fields.flags = flags;
   return pack(mavlink_msg_ekf_status_report_encode_status, fields);
+}
+
+Bytes FrameFactory::estimator_status(std::uint16_t flags) {
+  mavlink_estimator_status_t fields{};
+  fields.flags = flags;
+  return pack(mavlink_msg_estimator_status_encode_status, fields);
 }
 
 Bytes FrameFactory::system_time(VehicleTime time) {

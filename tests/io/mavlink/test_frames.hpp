@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geoloc/geometry/time.hpp"
@@ -15,10 +17,23 @@ constexpr std::uint8_t kArduPilot = 3;
 constexpr std::uint8_t kPx4 = 12;
 constexpr std::uint8_t kQuadrotor = 2;
 
+/// What the frames of a sender are signed with.
+struct Signature {
+  std::array<std::uint8_t, 32> key{};
+  std::uint8_t link = 0;
+  std::uint64_t stamp = 0;  ///< of the next frame; those after it have the following ones
+};
+
+/// Whether the generated parser finds one frame in these bytes, signed by the key.
+bool is_signed_by(const std::array<std::uint8_t, 32>& key, const Bytes& frame);
+
 /// Frames of one sender, made by the generated encoders, which are independent of the code under test.
 class FrameFactory {
  public:
   explicit FrameFactory(MavAddress self, bool use_v2 = true) : self_(self), use_v2_(use_v2) {}
+
+  /// MAVLink 2 frames from now on, but for those of unknown messages and TIMESYNC to a target.
+  void sign(const Signature& signature) { signature_ = signature; }
 
   Bytes heartbeat(std::uint8_t autopilot = kArduPilot, std::uint8_t vehicle_type = kQuadrotor);
   Bytes attitude(VehicleTime time, double roll_rad = 0.0, double pitch_rad = 0.0, double yaw_rad = 0.0);
@@ -32,6 +47,7 @@ class FrameFactory {
                         std::uint8_t signal_quality = 0);
   Bytes rangefinder(double distance_m);
   Bytes ekf_status(std::uint16_t flags);
+  Bytes estimator_status(std::uint16_t flags);
   Bytes system_time(VehicleTime time);
   Bytes timesync(std::int64_t tc1, std::int64_t ts1);
   /// A TIMESYNC of later dialects, which state the receiver.
@@ -47,6 +63,7 @@ class FrameFactory {
 
   MavAddress self_;
   bool use_v2_;
+  std::optional<Signature> signature_;
   std::uint8_t sequence_ = 0;
 };
 

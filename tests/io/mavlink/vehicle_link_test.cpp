@@ -51,17 +51,73 @@ TEST_F(VehicleLinkTest, ListensToTheFirstAutopilotOnly) {
   EXPECT_FALSE(link_.status(kStart).vehicle);
   EXPECT_TRUE(hear(vehicle_.heartbeat(), 1s));
   EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_TRUE(hear(vehicle_.attitude(at(1900ms)), 1900ms));
 
   EXPECT_FALSE(hear(other.heartbeat(), 2s));
   EXPECT_FALSE(hear(other.attitude(at(900s)), 2s));
   EXPECT_FALSE(hear(other.position(at(900s), 1.0, 2.0), 2s));
   EXPECT_FALSE(hear(camera.attitude(at(2s)), 2s));
   EXPECT_TRUE(hear(vehicle_.attitude(at(2s)), 2s));
-  EXPECT_EQ(sink_.attitudes.size(), 1U);
+  EXPECT_EQ(sink_.attitudes.size(), 2U);
   EXPECT_TRUE(sink_.positions.empty());
   EXPECT_EQ(counts().foreign_frames, 7U);
-  EXPECT_EQ(counts().vehicle_frames, 2U);
-  EXPECT_EQ(sink_.frames.size(), 9U) << "a recording keeps the whole link";
+  EXPECT_EQ(counts().vehicle_frames, 3U);
+  EXPECT_EQ(sink_.frames.size(), 10U) << "a recording keeps the whole link";
+  EXPECT_EQ(link_.status(kStart + 3s).other_system, 2);
+  EXPECT_FALSE(link_.status(kStart + 30s).other_system);
+}
+
+TEST_F(VehicleLinkTest, AHeartbeatAloneMakesNoVehicleForGood) {
+  FrameFactory other({7, 1});
+  hear(other.heartbeat(), 1s);
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{7, 1})) << "it is asked for its state";
+  hear(vehicle_.heartbeat(), 2s);
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{7, 1})) << "it has its turn";
+  EXPECT_TRUE(hear(vehicle_.attitude(at(2100ms)), 2100ms));
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_EQ(sink_.attitudes.size(), 1U);
+  EXPECT_EQ(sink_.other_vehicles, 0) << "nothing was delivered of the other one";
+}
+
+TEST_F(VehicleLinkTest, AutopilotsThatSendNothingUnaskedHaveTheirTurns) {
+  FrameFactory other({7, 1});
+  std::vector<int> vehicles;
+  for (int i = 0; i < 30; ++i) {
+    hear(other.heartbeat(), i * 1s);
+    hear(vehicle_.heartbeat(), i * 1s + 500ms);
+    const int now = link_.status(kStart).vehicle->system;
+    if (vehicles.empty() || vehicles.back() != now) vehicles.push_back(now);
+  }
+  EXPECT_EQ(vehicles, (std::vector<int>{7, 1, 7, 1, 7, 1}));
+}
+
+TEST_F(VehicleLinkTest, OneFalseStateMakesNoVehicleForGood) {
+  FrameFactory other({7, 1});
+  hear(other.heartbeat(), 1s);
+  hear(other.gnss(1), 1s);
+  hear(other.attitude(at(900s)), 1s);
+  for (int i = 0; i < 100; ++i) {
+    if (i % 10 == 0) hear(vehicle_.heartbeat(), 1s + i * 100ms);
+    hear(vehicle_.attitude(at(1s + i * 100ms)), 1s + i * 100ms);
+    hear(vehicle_.position(at(1s + i * 100ms), 47.0, 8.0), 1s + i * 100ms);
+  }
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_EQ(sink_.other_vehicles, 1);
+  EXPECT_GE(sink_.positions.size(), 65U) << "all but those of the first three seconds";
+  EXPECT_NEAR(seconds(*link_.clock().to_vehicle(kStart + 10s) - at(10s)), 0.0, 1e-3);
+}
+
+TEST_F(VehicleLinkTest, AVehicleThatHasProvenItselfStaysTheVehicle) {
+  FrameFactory other({7, 1});
+  hear(vehicle_.heartbeat(), 1s);
+  for (int i = 0; i <= 31; ++i) hear(vehicle_.attitude(at(1s + i * 100ms)), 1s + i * 100ms);
+  for (int i = 0; i < 600; ++i) {
+    hear(other.heartbeat(), 5s + i * 100ms);
+    hear(other.attitude(at(1s + i * 100ms)), 5s + i * 100ms);
+  }
+  EXPECT_EQ(link_.status(kStart).vehicle, (MavAddress{1, 1}));
+  EXPECT_EQ(sink_.attitudes.size(), 32U);
+  EXPECT_EQ(link_.status(kStart + 60s).other_system, 7);
 }
 
 TEST_F(VehicleLinkTest, WaitsForTheConfiguredSystem) {
@@ -71,6 +127,8 @@ TEST_F(VehicleLinkTest, WaitsForTheConfiguredSystem) {
   FrameFactory second({2, 1});
   const Bytes first_heartbeat = vehicle_.heartbeat(), second_heartbeat = second.heartbeat();
   EXPECT_FALSE(link.consume(kStart, first_heartbeat.data(), first_heartbeat.size(), sink_));
+  EXPECT_FALSE(link.status(kStart).vehicle);
+  EXPECT_EQ(link.status(kStart).other_system, 1);
   EXPECT_TRUE(link.consume(kStart, second_heartbeat.data(), second_heartbeat.size(), sink_));
 }
 
@@ -97,6 +155,67 @@ TEST_F(VehicleLinkTest, KeepsPositionsBackUntilTheVehicleKnowsWhereItIs) {
   ASSERT_EQ(sink_.positions.size(), 3U);
   EXPECT_EQ(sink_.positions.back().time, at(1500ms));
   EXPECT_DOUBLE_EQ(sink_.positions.back().height_above_home_m, 12.5);
+}
+
+TEST_F(VehicleLinkTest, AVetoThatIsNotRepeatedLapses) {
+  meet_vehicle();
+  hear(vehicle_.ekf_status(0), 1s);
+  hear(vehicle_.position(at(5900ms), 47.0, 8.0), 5900ms);
+  EXPECT_TRUE(sink_.positions.empty());
+  EXPECT_EQ(link_.status(kStart + 5900ms).position_refusal, PositionRefusal::kNoAbsolutePosition);
+  hear(vehicle_.gnss(1), 6s);
+  hear(vehicle_.position(at(6100ms), 47.0, 8.0), 6100ms);
+  EXPECT_EQ(link_.status(kStart + 6100ms).position_refusal, PositionRefusal::kNoFix);
+  hear(vehicle_.attitude(at(9s)), 9s);
+  hear(vehicle_.position(at(11100ms), 47.0, 8.0), 11100ms);
+  EXPECT_EQ(sink_.positions.size(), 1U);
+  EXPECT_FALSE(link_.status(kStart + 11100ms).position_refusal);
+  hear(vehicle_.position(at(11200ms), 0.0, 0.0), 11200ms);
+  EXPECT_EQ(link_.status(kStart + 11200ms).position_refusal, PositionRefusal::kNoPlace);
+}
+
+TEST_F(VehicleLinkTest, OneFalseAccuracyAmongOthersHasNoEffect) {
+  meet_vehicle();
+  std::vector<std::optional<double>> told;
+  for (const double h_acc_m : {0.8, 5000.0, 0.9, 0.7, 0.001, 0.8, 0.0, 0.6}) {
+    const Duration now = 2s + told.size() * 500ms;
+    hear(vehicle_.gnss(3, h_acc_m), now);
+    hear(vehicle_.position(at(now), 47.0, 8.0), now);
+    told.push_back(sink_.positions.back().sigma_horizontal_m);
+  }
+  EXPECT_EQ(told, (std::vector<std::optional<double>>{0.8, 0.8, 0.9, 0.9, 0.7, 0.7, std::nullopt, 0.6}));
+  for (const Duration now : {8s, 11s}) hear(vehicle_.attitude(at(now)), now);
+  hear(vehicle_.position(at(11100ms), 47.0, 8.0), 11100ms);
+  EXPECT_FALSE(sink_.positions.back().sigma_horizontal_m) << "nothing has been told for long";
+}
+
+TEST_F(VehicleLinkTest, TellsAGlitchOfEitherEstimator) {
+  meet_vehicle();
+  const auto has_glitch = [&] { return link_.status(kStart + 2s).has_gnss_glitch; };
+  hear(vehicle_.ekf_status(831 | 1024), 2s);  // its other bit of this number has another meaning
+  EXPECT_FALSE(has_glitch());
+  hear(vehicle_.ekf_status(831 | 32768), 2s);
+  EXPECT_TRUE(has_glitch());
+  hear(vehicle_.estimator_status(831), 2s);
+  EXPECT_FALSE(has_glitch());
+  hear(vehicle_.estimator_status(831 | 1024), 2s);
+  EXPECT_TRUE(has_glitch());
+  EXPECT_FALSE(link_.status(kStart + 20s).has_gnss_glitch);
+}
+
+TEST_F(VehicleLinkTest, DropsASampleThatComesBeforeItsStamp) {
+  meet_vehicle();
+  for (int i = 0; i < 40; ++i) hear(vehicle_.attitude(at(1s + i * 100ms)), 1s + i * 100ms);
+  const std::size_t before = sink_.attitudes.size();
+  hear(vehicle_.attitude(at(9800ms)), 5s);
+  EXPECT_EQ(sink_.attitudes.size(), before);
+  EXPECT_EQ(counts().suspect_stamps, 1U);
+  hear(vehicle_.attitude(at(5s)), 5s);
+  EXPECT_EQ(sink_.attitudes.size(), before + 1);
+  EXPECT_EQ(link_.clock().doubt(), Duration::zero());
+  for (int i = 0; i < 3; ++i) hear(vehicle_.attitude(at(9s + i * 100ms)), 5100ms + i * 100ms);
+  EXPECT_EQ(sink_.clock_steps.size(), 1U) << "three in a row: the clock has stepped";
+  EXPECT_EQ(sink_.attitudes.size(), before + 2) << "the third is of the new clock";
 }
 
 TEST_F(VehicleLinkTest, TakesQuaternionsOnlyWhereThereAreNoAngles) {

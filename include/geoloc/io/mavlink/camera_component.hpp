@@ -17,14 +17,14 @@ namespace geoloc::io {
 /// A camera of the vehicle in MAVLink's camera protocol. It announces itself, answers the requests that
 /// ground stations send to a tracking camera, and reports the position of the tracked object: the one
 /// selected by MAV_CMD_CAMERA_TRACK_POINT, otherwise the nearest. It does no input or output and reads no
-/// clock, and it obeys no command that could do harm.
+/// clock, and it obeys no command that could do harm. Its answers have a budget per second: the link is the
+/// vehicle's.
 class CameraComponent {
  public:
   using Send = std::function<void(const std::uint8_t* frame, std::size_t size)>;
 
   /// `component_id`: in the vehicle's system.
-  CameraComponent(std::uint8_t component_id, const CameraIntrinsics& image)
-      : component_id_(component_id), image_(image) {}
+  CameraComponent(std::uint8_t component_id, const CameraIntrinsics& image);
 
   /// A frame of the link, whoever sent it.
   void consume(const std::uint8_t* frame, std::size_t size);
@@ -50,6 +50,8 @@ class CameraComponent {
   };
 
   void obey(const Command& command, MavAddress sender);
+  void queue(const Reply& reply);
+  void send_replies(HostTime now, MavAddress self, const Send& send);
   Reply answer(const Command& command);
   Reply answer_request(std::uint32_t message_id) const;
   std::uint8_t set_interval(const Command& command);
@@ -66,6 +68,8 @@ class CameraComponent {
   std::optional<CameraView> view_;
   std::optional<std::uint64_t> selected_;
   std::deque<Reply> replies_;
+  double replies_allowed_;
+  std::optional<HostTime> replies_allowed_at_;
   std::optional<HostTime> last_heartbeat_;
   Stream tracking_{276, std::chrono::seconds{1}, {}};
   Stream field_of_view_{271, {}, {}};

@@ -112,6 +112,10 @@ class VehicleClockMap {
   /// beforehand (BootClockMonitor).
   void add_arrival(VehicleTime stamp, HostTime received_at);
 
+  /// Whether a message that comes then with that stamp would come before it: the clock has stepped, or the
+  /// stamp is false.
+  bool is_early(VehicleTime stamp, HostTime received_at) const;
+
   /// nullopt before the first message, for a time before the last step, and for one beyond any clock.
   std::optional<VehicleTime> to_vehicle(HostTime time) const;
   std::optional<HostTime> to_host(VehicleTime time) const;

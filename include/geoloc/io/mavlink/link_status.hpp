@@ -8,6 +8,7 @@
 #include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/frame.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/io/mavlink/position_gate.hpp"
 #include "geoloc/io/mavlink/stream_requests.hpp"
 
 namespace geoloc::io {
@@ -29,10 +30,14 @@ struct TelemetryCounts {
 
 /// A VehicleLink at one moment.
 struct LinkStatus {
-  std::optional<MavAddress> vehicle;     ///< nullopt until an autopilot was heard
-  bool is_v2 = false;                    ///< the vehicle's last frame
-  std::optional<std::uint8_t> fix_type;  ///< GPS_FIX_TYPE, where the vehicle sends it
-  double attitude_rate_hz = 0.0;         ///< delivered, over the last three seconds
+  std::optional<MavAddress> vehicle;  ///< nullopt until an autopilot was heard
+  /// Another autopilot's system that was heard just now; mavlink.system_id would make it the vehicle.
+  std::optional<std::uint8_t> other_system;
+  bool is_v2 = false;                               ///< the vehicle's last frame
+  std::optional<std::uint8_t> fix_type;             ///< GPS_FIX_TYPE, where the vehicle sends it
+  std::optional<PositionRefusal> position_refusal;  ///< of the last position, or of any that would come now
+  bool has_gnss_glitch = false;                     ///< as the vehicle's estimator says
+  double attitude_rate_hz = 0.0;                    ///< delivered, over the last three seconds
   double position_rate_hz = 0.0;
   std::optional<Duration> since_attitude;  ///< nullopt before the first
   std::optional<Duration> since_position;

@@ -42,6 +42,7 @@ struct GnssStatus {
 /// EKF_STATUS_REPORT (ArduPilot) or ESTIMATOR_STATUS (PX4), which share the bits that matter here.
 struct EstimatorStatus {
   std::uint16_t flags = 0;
+  bool has_gnss_glitch = false;  ///< the two name it by different bits
 
   bool has_absolute_position() const;
 };

@@ -24,6 +24,10 @@ class TelemetrySink {
   /// The vehicle's clock was reset: times before and after it cannot be compared.
   virtual void on_reboot() = 0;
 
+  /// The samples so far were of a system that turned out not to be the vehicle: what was made of them is
+  /// void.
+  virtual void on_other_vehicle() {}
+
   /// The vehicle's clock stepped against the host's by `change` (vehicle - host), or the link's delay did
   /// where nothing tells the two apart: samples on both sides of it cannot be interpolated.
   virtual void on_clock_step(Duration change) = 0;

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "geoloc/io/mavlink/link_source.hpp"
+
 namespace geoloc::io {
 
 struct UdpEndpoint {
@@ -25,6 +27,8 @@ struct UdpPeer {
   sockaddr_storage address{};
   socklen_t address_size = 0;
 };
+
+LinkSource source_of(const UdpPeer& peer);
 
 /// A bound UDP socket that answers one peer. Anyone who reaches the port can send to it, so input must be
 /// checked.

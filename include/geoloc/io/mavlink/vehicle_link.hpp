@@ -19,6 +19,7 @@
 #include "geoloc/io/mavlink/rate_meter.hpp"
 #include "geoloc/io/mavlink/stream_requests.hpp"
 #include "geoloc/io/mavlink/telemetry_sink.hpp"
+#include "geoloc/io/mavlink/vehicle_choice.hpp"
 #include "geoloc/state/boot_clock_monitor.hpp"
 
 namespace geoloc::io {
@@ -26,8 +27,8 @@ namespace geoloc::io {
 /// One vehicle on a MAVLink connection: received bytes go in; its telemetry and clock come out, and the
 /// requests to send to keep them coming. It does no input or output and reads no clock.
 ///
-/// The vehicle is the first autopilot (component 1) whose HEARTBEAT is heard, or the configured system;
-/// nothing from others reaches the sink. What consume() delivers depends only on the bytes and their times,
+/// The vehicle is the autopilot that sends state (VehicleChoice); nothing from others reaches the sink. What
+/// consume() delivers depends only on the bytes and their times,
 /// never on poll(): the recorded frames with their times give the same samples and the same clock map.
 class VehicleLink {
  public:
@@ -57,8 +58,9 @@ class VehicleLink {
   };
 
   bool take(const Frame& frame, const Arrival& arrival);
-  void choose_vehicle(const Frame& frame, const Message& message, HostTime received_at);
+  void begin_with_vehicle(const Arrival& arrival);
   bool accept_stamp(VehicleTime stamp, const Arrival& arrival);
+  bool accept_early_stamp(VehicleTime stamp, const Arrival& arrival);
   void tell_of_clock_step(std::uint64_t steps_before, const Arrival& arrival);
 
   void handle(const NotDecoded&, const Arrival&) {}
@@ -67,8 +69,8 @@ class VehicleLink {
   void handle(const AttitudeMessage& message, const Arrival& arrival);
   void handle(const PositionSample& message, const Arrival& arrival);
   void handle(const RangeMessage& message, const Arrival& arrival);
-  void handle(const GnssStatus& message, const Arrival&) { gate_.observe(message); }
-  void handle(const EstimatorStatus& message, const Arrival&) { gate_.observe(message); }
+  void handle(const GnssStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
+  void handle(const EstimatorStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
   void handle(const Timesync& message, const Arrival& arrival);
   void handle(const SystemTime& message, const Arrival& arrival) { accept_stamp(message.time, arrival); }
   void handle(const CommandAck& message, const Arrival& arrival);
@@ -83,7 +85,7 @@ class VehicleLink {
 
   MavlinkConfig config_;
   FrameParser parser_;
-  std::optional<MavAddress> vehicle_;
+  VehicleChoice choice_;
   BootClockMonitor boot_clock_;
   VehicleClockMap clock_;
   PositionGate gate_;
@@ -92,7 +94,9 @@ class VehicleLink {
   std::optional<HostTime> last_attitude_;
   std::optional<HostTime> last_euler_attitude_;
   std::optional<HostTime> last_position_;
+  std::optional<PositionRefusal> last_refusal_;  // of a position, after the last one that was delivered
   std::optional<HostTime> last_stamped_range_;
+  bool has_delivered_ = false;  // a sample of the present vehicle
   HostTime last_heard_{};
   bool is_v2_ = false;
   TelemetryCounts counts_;

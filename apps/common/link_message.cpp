@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/link_message.hpp"
+
+#include <fmt/format.h>
+
+namespace geoloc::apps {
+namespace {
+
+constexpr double kSilence_s = 3.0;
+constexpr Duration kRefusalLasts = std::chrono::seconds{10};
+
+bool is_silent(const std::optional<Duration>& since) {
+  return !since || seconds(*since) > kSilence_s;
+}
+
+std::string of_another(const io::LinkStatus& link) {
+  if (!link.other_system) return {};
+  return fmt::format("; system {0} is heard, too: mavlink.system_id {0} would make it the vehicle",
+                     *link.other_system);
+}
+
+std::string no_position(const io::LinkStatus& link) {
+  const std::string comes = link.since_position ? "no position comes any more" : "no position comes";
+  if (!link.position_refusal) return comes;
+  switch (*link.position_refusal) {
+    case io::PositionRefusal::kNoPlace:
+      return comes + ": it sends latitude and longitude 0";
+    case io::PositionRefusal::kNoFix:
+      return link.since_position ? "its GNSS receiver has lost its fix" : "its GNSS receiver has no fix yet";
+    case io::PositionRefusal::kNoAbsolutePosition:
+      return comes + ": its estimator says that it does not know where it is";
+  }
+  return comes;
+}
+
+/// Empty where frames can be located.
+std::string fault(const io::LinkStatus& link, const StateProvider& state) {
+  using Use = StateProvider::PositionUse;
+  if (is_silent(link.since_attitude)) return "no attitude comes";
+  if (is_silent(link.since_position)) return no_position(link);
+  if (state.position_use() == Use::kUnconfirmed) return "no two of its positions agree yet";
+  if (state.position_use() == Use::kTooFar)
+    return "its positions are more than 200 km from where the run began: a restart begins there";
+  return {};
+}
+
+}  // namespace
+
+LinkMessage link_message(const io::LinkStatus& link, const StateProvider& state) {
+  if (!link.vehicle)
+    return {"waiting for a vehicle: no MAVLink heartbeat of an autopilot yet" + of_another(link), false};
+  const std::string vehicle = fmt::format("vehicle {}: ", link.vehicle->system);
+  const std::string what = fault(link, state);
+  if (what.empty() && link.has_gnss_glitch)
+    return {vehicle + "telemetry comes; its estimator reports a GNSS glitch: the position may be off", true};
+  if (what.empty()) return {vehicle + "telemetry comes", true};
+  return {vehicle + what + "; frames cannot be located" + of_another(link), false};
+}
+
+std::string refusal_message(const io::LinkGuard& guard, HostTime now) {
+  const auto& signature = guard.last_refused_signature();
+  if (signature && now - *signature < kRefusalLasts)
+    return "messages that are not signed by mavlink.signing_key_file are refused: the vehicle needs the same "
+           "key";
+  const auto& second = guard.last_second_source();
+  if (second && now - second->at < kRefusalLasts)
+    return fmt::format("system {} speaks from {}: what {} sends under its name is refused", second->system,
+                       to_string(second->speaks), to_string(second->refused));
+  return {};
+}
+
+std::string count_of_refusals(const io::LinkGuard::Counts& counts) {
+  std::string all;
+  const auto add = [&all](std::uint64_t count, const char* what) {
+    if (count > 0) all += fmt::format("{}{} {}", all.empty() ? "" : ", ", count, what);
+  };
+  add(counts.unsigned_frames, "not signed");
+  add(counts.wrong_signatures, "signed by another key");
+  add(counts.repeated_signatures, "repeated");
+  add(counts.second_source, "of a second source of the same system");
+  add(counts.unasked_timesyncs, "that answered no TIMESYNC request");
+  return all.empty() ? all : "MAVLink messages refused: " + all;
+}
+
+}  // namespace geoloc::apps
