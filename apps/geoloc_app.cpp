@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/console.hpp"
+#include "app/damage_watch.hpp"
 #include "app/live_inputs.hpp"
 #include "app/live_options.hpp"
 #include "app/live_run.hpp"
@@ -95,12 +96,14 @@ void run_until_stopped(Program& program, Console& console, const StopSignal& sto
                 program.outputs.post_frame(program.session, frame, is_located);
               });
   const HostTime started_at = program.clock.now();
+  DamageWatch damage(inputs.config.video.transport);
   Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at);
   while (!stop.is_requested() && !run.has_ended()) {
     run.step();
     const HostTime now = program.clock.now();
     if (status.is_due(now)) {
-      const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
+      const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run,
+                                     damage.observe(now, inputs.video->status()));
       tell_all(program.outputs.take_messages(), console);
       tell_all(program.session.take_news(), console);
       console.update(state);
@@ -138,6 +141,8 @@ int main(int argc, char** argv) {
   run_until_stopped(*program, console, stop);
   program->session.finish();
 
+  program->recorder.write(
+      [&program](io::RecordingWriter& writer) { writer.write_damaged(program->session.frames_damaged()); });
   program->recorder.finish();
   const io::RunRecord record = program->record();
   program->outputs.finish(record);

@@ -115,6 +115,7 @@ struct Program {
         session(config),
         // A replay is faster than its sinks, so it waits for them.
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
+    session.note_damaged(recording.frames_damaged);
     add_sinks(options.outputs, config, outputs);
     page = open_live_page(options.outputs.http, config.live_page, {options.recording, false},
                           recording.class_names, outputs);
