@@ -137,7 +137,7 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   Console console;
   console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
-  if (program->page) console.say("page: " + program->page->url());
+  if (program->page) console.say(page_message(*program->page));
   run_until_stopped(*program, console, stop);
   program->session.finish();
 

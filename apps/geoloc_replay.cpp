@@ -192,7 +192,7 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   if (program->recording.skipped_lines > 0)
     std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", program->recording.skipped_lines);
-  if (program->page) std::fprintf(stderr, "page: %s\n", program->page->url().c_str());
+  if (program->page) std::fprintf(stderr, "%s\n", page_message(*program->page).c_str());
   replay_all(*program, stop);
   for (const std::string& line : program->session.take_news())
     std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());
