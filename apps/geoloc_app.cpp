@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "app/console.hpp"
+#include "app/damage_watch.hpp"
 #include "app/live_inputs.hpp"
 #include "app/live_options.hpp"
 #include "app/live_run.hpp"
@@ -105,12 +106,14 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
                 program.outputs.post_frame(program.session, frame, is_located);
               });
   const HostTime started_at = program.clock.now();
+  DamageWatch damage(inputs.config.video.transport);
   Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at);
   while (!stop.is_requested() && !run.has_ended()) {
     run.step();
     const HostTime now = program.clock.now();
     if (status.is_due(now)) {
-      const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run);
+      const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run,
+                                     damage.observe(now, inputs.video->status()));
       tell_all(library_words.take(), console);
       tell_all(program.outputs.take_messages(), console);
       tell_all(program.recorder->take_messages(), console);
@@ -168,11 +171,13 @@ int main(int argc, char** argv) {
   if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->inputs.signing_store && !program->inputs.signing_store->remark().empty())
     console.say(program->inputs.signing_store->remark());
-  if (program->page) console.say("page: " + program->page->url());
+  if (program->page) console.say(page_message(*program->page));
   run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
 
-  program->recorder->finish();
+  program->recorder->finish([damaged = program->session.frames_damaged()](io::RecordingWriter& writer) {
+    writer.write_damaged(damaged);
+  });
   tell_all(program->recorder->take_messages(), console);
   const io::RunRecord record = program->record();
   program->outputs.finish(record);

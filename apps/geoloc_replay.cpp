@@ -115,6 +115,7 @@ struct Program {
         session(config),
         // A replay is faster than its sinks, so it waits for them.
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
+    session.note_damaged(recording.frames_damaged);
     add_sinks(options.outputs, config, io::OldFile::kReplace, outputs);
     page = open_live_page(options.outputs.http, config.live_page, {options.recording, false},
                           recording.class_names, outputs);
@@ -191,7 +192,7 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   if (program->recording.skipped_lines > 0)
     std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", program->recording.skipped_lines);
-  if (program->page) std::fprintf(stderr, "page: %s\n", program->page->url().c_str());
+  if (program->page) std::fprintf(stderr, "%s\n", page_message(*program->page).c_str());
   replay_all(*program, stop);
   for (const std::string& line : program->session.take_news())
     std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());

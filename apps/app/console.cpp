@@ -16,12 +16,14 @@ constexpr const char* kClearLine = "\r\033[K";
 /// What matters most comes first: a narrow terminal shows the beginning.
 std::string status_line(const io::LiveStatus& status) {
   const int elapsed_s = static_cast<int>(seconds(status.elapsed));
+  const std::string damaged =
+      status.frames_damaged > 0 ? fmt::format(", {} damaged", status.frames_damaged) : "";
   return fmt::format(
       "{:02d}:{:02d}  objects {} (+{})  telemetry {:.0f}+{:.0f} Hz  video {} {:.0f}/s  latency {:.0f} ms  "
-      "frames {}, {} without state  detect {:.0f} ms  time {}",
+      "frames {}, {} without state{}  detect {:.0f} ms  time {}",
       elapsed_s / 60, elapsed_s % 60, status.objects, status.tentative, status.attitude_rate_hz,
       status.position_rate_hz, status.video_state, status.video_rate_hz, status.latency_ms, status.frames,
-      status.frames_unusable, status.detect_ms, status.frame_time);
+      status.frames_unusable, damaged, status.detect_ms, status.frame_time);
 }
 
 /// Characters in a line of the terminal. One that is longer would be wrapped, and could not be overwritten.

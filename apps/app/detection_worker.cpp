@@ -38,8 +38,12 @@ void DetectionWorker::run() {
 }
 
 bool DetectionWorker::fits_calibration(const cv::Mat& picture) {
-  if (picture.cols == camera_.width_px && picture.rows == camera_.height_px) return true;
+  const bool fits = picture.cols == camera_.width_px && picture.rows == camera_.height_px;
   const std::lock_guard lock(mutex_);
+  if (fits) {
+    stats_.wrong_size_message.clear();
+    return true;
+  }
   ++stats_.wrong_size;
   stats_.wrong_size_message = "frames are " + std::to_string(picture.cols) + " x " +
                               std::to_string(picture.rows) + ", but the camera is calibrated for " +

@@ -35,7 +35,7 @@ class DetectionWorker {
     std::uint64_t wrong_size = 0;
     std::uint64_t overflowed = 0;    ///< queued results nobody took in time
     RunningMean detect_ms;           ///< of one frame
-    std::string wrong_size_message;  ///< the latest, for the user
+    std::string wrong_size_message;  ///< for the user; empty where the last frame has the right size
   };
 
   /// Called in the worker's thread with each frame that was searched; must be quick.

@@ -26,7 +26,8 @@ std::string video_message(const io::VideoStatus& video) {
 }  // namespace
 
 io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& session,
-                           const io::VideoSource& video, const DetectionWorker& worker, const LiveRun& run) {
+                           const io::VideoSource& video, const DetectionWorker& worker, const LiveRun& run,
+                           const std::string& damage) {
   const io::LinkStatus link = session.link().status(now);
   const io::VideoStatus stream = video.status();
   const DetectionWorker::Stats detection = worker.stats();
@@ -40,8 +41,9 @@ io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& ses
   status.link_is_good = telemetry.is_good;
   status.attitude_rate_hz = link.attitude_rate_hz;
   status.position_rate_hz = link.position_rate_hz;
-  status.video = video_message(stream);
-  status.video_is_good = stream.state == io::VideoState::kPlaying;
+  const bool is_playing = stream.state == io::VideoState::kPlaying;
+  status.video = is_playing && !damage.empty() ? damage : video_message(stream);
+  status.video_is_good = is_playing && damage.empty();
   status.video_state = to_string(stream.state);
   status.video_rate_hz = stream.frames_per_second;
   status.frame_time = to_string(run.stats().time_quality);
@@ -51,6 +53,8 @@ io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& ses
   status.latency_ms = 1e3 * run.stats().latency_s.value();
   status.frames = session.frames();
   status.frames_unusable = session.frames_unusable();
+  status.frames_damaged = detection.damaged;
+  status.packets_lost = stream.lost_packets;
   status.objects =
       static_cast<std::uint64_t>(std::count_if(tracks.begin(), tracks.end(), [](const Track& track) {
         return track.status == TrackStatus::kConfirmed;

@@ -9,8 +9,9 @@
 
 namespace geoloc::apps {
 
-/// How the run is doing now.
+/// How the run is doing now. `damage`: what is to be said of damaged frames, or empty.
 io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& session,
-                           const io::VideoSource& video, const DetectionWorker& worker, const LiveRun& run);
+                           const io::VideoSource& video, const DetectionWorker& worker, const LiveRun& run,
+                           const std::string& damage);
 
 }  // namespace geoloc::apps

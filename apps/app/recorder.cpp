@@ -31,10 +31,10 @@ struct Recorder::State {
 
   explicit State(std::size_t its_bound_bytes) : most_waiting_bytes(its_bound_bytes) {}
 
-  bool begin(const std::string& folder, const WriteSettings& write_settings);
+  bool begin(const std::string& folder, const Write& write_settings);
   void run();
   bool add(Entry entry);
-  void close();
+  void close(Write its_last);
   bool wait_until_done();
   void give_up(const std::string& reason);
 
@@ -50,6 +50,7 @@ struct Recorder::State {
   std::uint64_t moves = 0;  // entries written, syncs
   std::uint64_t telemetry_left_out = 0;
   std::uint64_t frames_left_out = 0;
+  Write write_last;  // once closed
   bool is_closed = false;
   bool is_done = false;
   bool has_failed = false;
@@ -77,7 +78,7 @@ void Recorder::State::write(const Entry& entry) {
 }
 
 /// False where the disk does not take it, which is no reason not to fly.
-bool Recorder::State::begin(const std::string& folder, const WriteSettings& write_settings) {
+bool Recorder::State::begin(const std::string& folder, const Write& write_settings) {
   try {
     writer.emplace(folder, io::NameTaken::kNumber);
     if (writer->folder() != folder)
@@ -95,6 +96,7 @@ bool Recorder::State::begin(const std::string& folder, const WriteSettings& writ
 void Recorder::State::run() {
   try {
     record_until_closed();
+    if (write_last) write_last(*writer);
     writer->finish();
   } catch (const std::exception& error) {
     give_up(error.what());
@@ -161,8 +163,9 @@ bool Recorder::State::add(Entry entry) {
   return true;
 }
 
-void Recorder::State::close() {
+void Recorder::State::close(Write its_last) {
   const std::lock_guard lock(mutex);
+  write_last = std::move(its_last);
   is_closed = true;
   has_closed.notify_all();
 }
@@ -177,7 +180,7 @@ bool Recorder::State::wait_until_done() {
   return true;
 }
 
-Recorder::Recorder(const std::string& folder, const WriteSettings& write_settings,
+Recorder::Recorder(const std::string& folder, const Write& write_settings,
                    std::size_t most_waiting_bytes) {
   if (folder.empty()) return;
   state_ = std::make_shared<State>(most_waiting_bytes);
@@ -206,9 +209,9 @@ bool Recorder::has_failed() const {
   return state_->has_failed || state_->telemetry_left_out + state_->frames_left_out > 0;
 }
 
-void Recorder::finish() {
+void Recorder::finish(Write write_last) {
   if (!thread_.joinable()) return;
-  state_->close();
+  state_->close(std::move(write_last));
   if (state_->wait_until_done()) {
     thread_.join();
   } else {

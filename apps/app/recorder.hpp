@@ -18,14 +18,14 @@ namespace geoloc::apps {
 /// left out and counted. The first error ends the recording, not the run. take_messages() tells all of that.
 class Recorder {
  public:
-  using WriteSettings = std::function<void(io::RecordingWriter& writer)>;
+  using Write = std::function<void(io::RecordingWriter& writer)>;
 
   static constexpr std::size_t kMostWaiting_bytes = 32 << 20;  ///< minutes of a usual flight
 
   /// No recording where `folder` is empty; under another name where that one is taken. `write_settings` is
   /// called at once: what it writes is safe when this returns. Throws std::runtime_error where the name
   /// cannot be used; a full disk only ends the recording.
-  Recorder(const std::string& folder, const WriteSettings& write_settings,
+  Recorder(const std::string& folder, const Write& write_settings,
            std::size_t most_waiting_bytes = kMostWaiting_bytes);
   /// finish().
   ~Recorder();
@@ -41,8 +41,9 @@ class Recorder {
   /// For the user, since the last call.
   std::vector<std::string> take_messages();
 
-  /// Waits for the disk while it makes progress; one that makes none for ten seconds is abandoned.
-  void finish();
+  /// Waits for the disk while it makes progress; one that makes none for ten seconds is abandoned. `write_last`
+  /// may be called after this returns, then.
+  void finish(Write write_last = {});
 
   /// The recording has ended early or is not whole. Final after finish().
   bool has_failed() const;

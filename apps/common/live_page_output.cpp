@@ -19,4 +19,14 @@ std::shared_ptr<io::LivePage> open_live_page(const std::string& endpoint, const 
   return page;
 }
 
+std::string page_message(const io::LivePage& page) {
+  const std::string where = "page: " + page.url();
+  if (!page.is_open_to_network()) return where;
+  return where +
+         "\nWARNING: --http serves the page, with the video and all coordinates, to EVERYONE who reaches "
+         "this "
+         "computer by network, without a password. To keep it to yourself, give --http PORT alone, and from "
+         "another computer open a tunnel: ssh -L PORT:127.0.0.1:PORT THIS-COMPUTER";
+}
+
 }  // namespace geoloc::apps

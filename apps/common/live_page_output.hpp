@@ -16,4 +16,7 @@ std::shared_ptr<io::LivePage> open_live_page(const std::string& endpoint, const 
                                              const io::LivePageTitle& title,
                                              const std::vector<std::string>& class_names, Outputs& outputs);
 
+/// Where the page is, and who else can see it, for the user.
+std::string page_message(const io::LivePage& page);
+
 }  // namespace geoloc::apps

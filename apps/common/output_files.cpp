@@ -101,8 +101,8 @@ void check_outputs(const NamedFiles& outputs, const NamedFiles& inputs) {
 
 NamedFiles files_of_recording(const fs::path& folder) {
   NamedFiles files;
-  for (const char* name :
-       {"telemetry.tlog", "frames.jsonl", "camera.json", "config.json", "class_names.json", "truth.geojson"})
+  for (const char* name : {"telemetry.tlog", "frames.jsonl", "camera.json", "config.json", "class_names.json",
+                           "counts.json", "truth.geojson"})
     files.push_back({"RECORDING", folder / name});
   return files;
 }

@@ -39,11 +39,18 @@ std::string useless_terrain(const Geolocator& geolocator) {
   return "\nthe elevation model of --ground has no height where the flight began: is it of another place?";
 }
 
+/// Empty where all frames were whole.
+std::string count_of_damaged(const Session& session) {
+  if (session.frames_damaged() == 0) return {};
+  return fmt::format("{} more frames were damaged on their way and left out", session.frames_damaged());
+}
+
 /// What a person should know besides the figures.
 std::string remarks(const Session& session) {
   std::string lines;
-  for (const std::string& news : {count_of_jumps(session.geolocator().state().counters()),
-                                  count_of_turned(session.geolocator()), clock_message(session)}) {
+  for (const std::string& news :
+       {count_of_jumps(session.geolocator().state().counters()), count_of_turned(session.geolocator()),
+        clock_message(session), count_of_damaged(session)}) {
     if (!news.empty()) lines += "\n" + news;
   }
   return lines + unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
@@ -59,6 +66,7 @@ io::RunRecord record_run(const Session& session, const std::vector<std::string>&
   run.summary = summarize_run(session, truth);
   run.objects = io::report_objects(geolocator, class_names);
   run.estimator = io::report_estimator(geolocator);
+  run.estimator.counters.frames_damaged = session.frames_damaged();
   run.local_frame = geolocator.local_frame();
   run.ground_height_above_home_m = geolocator.projector().config().ground_height_above_home_m;
   run.raw_fixes = session.history().raw_fixes();

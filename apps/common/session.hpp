@@ -49,6 +49,10 @@ class Session final : private io::TelemetrySink {
     return geolocator_.counters().frames_unusable + frames_without_vehicle_;
   }
 
+  /// How many frames of the run were damaged and so not given to process().
+  void note_damaged(std::uint64_t frames) { frames_damaged_ = frames; }
+  std::uint64_t frames_damaged() const { return frames_damaged_; }
+
   /// What a user is to be told of the vehicle, since the last call.
   std::vector<std::string> take_news() { return news_.take(); }
 
@@ -85,7 +89,8 @@ class Session final : private io::TelemetrySink {
   RunHistory history_;
   StateNews news_;
   OnTelemetry on_telemetry_;
-  FrameDetections frame_;                     // reused
+  FrameDetections frame_;  // reused
+  std::uint64_t frames_damaged_ = 0;
   std::uint64_t frames_without_vehicle_ = 0;  // before its clock was known
 };
 

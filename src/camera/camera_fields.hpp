@@ -19,17 +19,34 @@ void visit_fields(Visitor& v, CameraMount& mount) {
   v.field("z_m", mount.z_m, kLeverArm, "m", "Lever arm down");
 }
 
+inline constexpr Range kImageSize = Range::closed(1, 32768);
+
+/// Whether a lens of that focal length may see an image of that size: between 178 deg and 20 arc seconds of
+/// it. Values that are out of their own ranges are no matter of this.
+inline bool is_focal_length_for(double focal_length_px, int size_px) {
+  if (!Range::positive().contains(focal_length_px) || !kImageSize.contains(size_px)) return true;
+  return Range::closed(0.01 * size_px, 1e4 * size_px).contains(focal_length_px);
+}
+
 template <class Visitor>
 void visit_fields(Visitor& v, CameraConfig& camera) {
   CameraIntrinsics& intrinsics = camera.intrinsics;
-  constexpr Range kSize = Range::closed(1, 32768);
-  v.field("width", intrinsics.width_px, kSize, "px", "Width of the image");
-  v.field("height", intrinsics.height_px, kSize, "px", "Height of the image");
-  v.field("fx", intrinsics.fx_px, Range::positive(), "px", "Focal length along the image's width");
-  v.field("fy", intrinsics.fy_px, Range::positive(), "px", "Focal length along the image's height");
-  v.field("cx", intrinsics.cx_px, Range::finite(), "px", "Principal point; pixel centres are at integers");
-  v.field("cy", intrinsics.cy_px, Range::finite(), "px", "Principal point; pixel centres are at integers");
-  v.field("distortion", intrinsics.distortion, Range::finite(), "", "OpenCV's k1 k2 p1 p2 k3");
+  constexpr Range kPrincipalPoint = Range::closed(-1e6, 1e6);
+  constexpr Range kDistortion = Range::closed(-1e6, 1e6);
+  constexpr const char* kFocalLength = "must be 0.01 to 10000 times the image's size that way";
+  v.field("width", intrinsics.width_px, kImageSize, "px", "Width of the image");
+  v.field("height", intrinsics.height_px, kImageSize, "px", "Height of the image");
+  v.field("fx", intrinsics.fx_px, Range::positive(), "px",
+          "Focal length along the image's width, 0.01 to 10000 times that");
+  v.relation("fx", intrinsics.fx_px, is_focal_length_for(intrinsics.fx_px, intrinsics.width_px),
+             kFocalLength);
+  v.field("fy", intrinsics.fy_px, Range::positive(), "px",
+          "Focal length along the image's height, 0.01 to 10000 times that");
+  v.relation("fy", intrinsics.fy_px, is_focal_length_for(intrinsics.fy_px, intrinsics.height_px),
+             kFocalLength);
+  v.field("cx", intrinsics.cx_px, kPrincipalPoint, "px", "Principal point; pixel centres are at integers");
+  v.field("cy", intrinsics.cy_px, kPrincipalPoint, "px", "Principal point; pixel centres are at integers");
+  v.field("distortion", intrinsics.distortion, kDistortion, "", "OpenCV's k1 k2 p1 p2 k3");
   v.section("mount", camera.mount);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "camera/camera_fields.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 #include "projection/projector_fields.hpp"
@@ -24,8 +26,15 @@ struct EnumNames<Method> {
       {{Method::kPaper, "paper"}, {Method::kJoint, "joint"}}};
 };
 
+/// Whether a margin of that width leaves something of the image.
+inline bool is_within_image(double margin_px, const CameraIntrinsics& image) {
+  return 2.0 * margin_px < std::min(image.width_px, image.height_px);
+}
+
 template <class Visitor>
 void visit_fields(Visitor& v, GeolocatorConfig& config) {
+  constexpr const char* kWithinImage = "must be less than half of the image's width and height";
+  const CameraIntrinsics& image = config.camera.intrinsics;
   v.field(
       "method", config.method, Any{}, "",
       "Objects, calibration and drift estimated together (joint), or one Kalman filter per object (paper)");
@@ -37,9 +46,14 @@ void visit_fields(Visitor& v, GeolocatorConfig& config) {
           "Most detections per frame; of more, the most confident are used");
   v.field("edge_margin_px", config.edge_margin_px, Range::closed(0, Range::kInfinity), "px",
           "Boxes nearer to the image's edge may be cut by it and are not used; 0 uses all");
+  v.relation("edge_margin_px", config.edge_margin_px, is_within_image(config.edge_margin_px, image),
+             kWithinImage);
   v.section("state", config.state);
   v.section("projector", config.projector);
   v.section("paper", config.paper);
+  v.relation("paper.visible_margin_px", config.paper.visible_margin_px,
+             config.method != Method::kPaper || is_within_image(config.paper.visible_margin_px, image),
+             kWithinImage);
   v.section("joint", config.joint);
   v.section("camera", config.camera);
   v.list("known_points", config.known_points, "Surveyed objects, for the joint method");

@@ -82,7 +82,7 @@ void visit_life_cycle_fields(Visitor& v, JointTrackerConfig& joint) {
           "Probability of existence that confirms an object");
   v.field("delete_probability", joint.delete_probability, kProbability, "",
           "Probability of existence below which an object is removed");
-  v.field("smallest_object_px", joint.smallest_object_px, Range::closed(0, Range::kInfinity), "px",
+  v.field("smallest_object_px", joint.smallest_object_px, Range::closed(0, 32768), "px",
           "Smaller objects are not expected to be found");
   v.field("merge_radius_m", joint.merge_radius_m, Range::closed(0, 1000), "m",
           "Tracks nearer to each other than this may be one object");

@@ -173,6 +173,17 @@ class UnusablePictures(DetectTest):
         self.assert_boxes(found[0], (3, 2))
         self.assert_boxes(found[1], (4, 2))
 
+    def test_a_picture_bomb_is_refused_before_it_is_decoded(self):
+        def chunk(kind, body):
+            return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+        side = 32000
+        packer = zlib.compressobj()
+        lines = b"".join(packer.compress(bytes(1 + 3 * side)) for _ in range(side)) + packer.flush()
+        bomb = self.put("bomb.png", b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0))
+                        + chunk(b"IDAT", lines) + chunk(b"IEND", b""))
+        self.assertLess(bomb.stat().st_size, 4_000_000)
+        self.assert_refused(self.detect(bomb), "bomb.png: has 32000 x 32000 pixels")
+
     def test_wrong_arguments(self):
         picture = self.put("one.png", png(pixels(3, 2)))
         self.put("other/one.png", png(pixels(3, 2)))

@@ -24,6 +24,15 @@ class UnusableInput(AppTest):
         self.assert_refused(self.start_app("--config", config), config, "paper.gate ", "paper.gates", "video.retry_max_s",
                             "colour", self.folder / "camera.yaml")
 
+    def test_a_camera_that_cannot_be_is_named(self):
+        camera = {"width": 1280, "height": 720, "fx": 900, "fy": 900, "cx": 640, "cy": 360}
+        for key, value in ("fx", 1e-12), ("fy", 1e300), ("cx", 1e300), ("distortion", [1e300]):
+            with self.subTest(key):
+                config = self.write("config.json", {"camera": {**camera, key: value}})
+                self.assert_refused(self.start_app("--config", config), f"camera.{key}")
+        config = self.write("config.json", {"camera": camera, "edge_margin_px": 360})
+        self.assert_refused(self.start_app("--config", config), "edge_margin_px must be less than half of the image")
+
     def test_faults_of_several_files_are_listed_together(self):
         result = self.start_app("--config", self.write("config.json", {"colour": "blue"}),
                                 "--model", self.write("model.onnx", "no network"),

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+import json
 import pathlib
 import re
 import sys
@@ -8,7 +9,8 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "apps"))
 
 from hostile_rtsp import Dripping, DrippingFrames, EndlessBody, HostileServer, Honest, Redirecting
-from support import AppTest, Live, free_port
+from lossy_proxy import LossyProxy
+from support import AppTest, Live, World, free_port, run
 
 # Promised is a second; a loaded machine may take longer, but not as long as a server that waits.
 END_S = 5
@@ -91,6 +93,36 @@ class HostileStreams(AppTest):
                 self.watch(server) as app:
             self.wait_for_request(other, "PLAY")
             self.assert_ends_at_once(app, "redirected to another")
+
+
+class LossyStreams(AppTest):
+    """Frames that are damaged on their way are left out, and that is said and counted."""
+
+    def test_lost_packets_are_said_and_counted(self):
+        world = World()
+        objects, replayed, lines = (self.folder / name for name in ("objects.geojson", "replayed.geojson", "lines.jsonl"))
+        config = self.write("config.json", {"video": {"transport": "udp"}})
+        with LossyProxy(world.rtsp_port, loss=0.03) as network, \
+                world.fly("--start-s", 80, "--end-s", 95, "--speed", 1) as sim, \
+                Live("geoloc_app", "--udp", f"127.0.0.1:{world.udp_port}", "--config", config, "--out", objects, "--jsonl", lines,
+                     "--rtsp", f"rtsp://127.0.0.1:{network.port}/cam", "--record", self.folder / "recording") as app:
+            app.wait_for("video: frames come, but [1-9]\\d* % of them are damaged and left out, "
+                         'for [1-9].* % of the packets are lost: set "video": {"transport": "tcp"}')
+            app.wait_for(r", [1-9]\d* damaged")
+            self.assertEqual(sim.wait(), 0, sim.lines)
+            network.loss = 0.0
+            self.assertEqual(app.interrupt(), 0)
+        damaged = json.loads(objects.read_text())["counters"]["frames_damaged"]
+        self.assertGreater(damaged, 10)
+        self.assertIn(f"{damaged} more frames were damaged", "\n".join(app.lines))
+        states = [line for line in map(json.loads, lines.read_text().splitlines()) if line["type"] == "status"]
+        self.assertGreaterEqual(states[-1]["frames_damaged"], damaged - 10)
+        self.assertGreater(states[-1]["packets_lost"], 10)
+        self.assertIn("damaged", states[-1]["video"])
+        self.assertFalse(states[-1]["video_is_good"])
+        self.assertEqual(run("geoloc_replay", self.folder / "recording", "--out", replayed).status, 0)
+        self.assertEqual(objects.read_bytes(), replayed.read_bytes())
+        print(f"3 % of packets lost: {damaged} frames damaged, {len(states)} states, {app.lines[-2:]}")
 
 
 if __name__ == "__main__":

@@ -22,6 +22,20 @@ TEST(GeolocatorConfig, NamesTheSettingOfAStageByItsPath) {
                                       "camera.mount.pitch_deg must lie in [-360, 360], but is 400"}));
 }
 
+TEST(GeolocatorConfig, RefusesMarginsThatLeaveNothingOfTheImage) {
+  GeolocatorConfig config;
+  config.camera.intrinsics = CameraIntrinsics::from_field_of_view(640, 480, 60.0);
+  config.edge_margin_px = 239.9;
+  EXPECT_EQ(config.problems(), std::vector<std::string>{});
+  config.method = Method::kPaper;
+  config.edge_margin_px = config.paper.visible_margin_px = 240.0;
+  EXPECT_EQ(
+      config.problems(),
+      (std::vector<std::string>{
+          "edge_margin_px must be less than half of the image's width and height, but is 240",
+          "paper.visible_margin_px must be less than half of the image's width and height, but is 240"}));
+}
+
 TEST(StageConfig, KeepsEveryBoundOnItsOwn) {
   EXPECT_GT(testing::expect_bounds_are_kept<StateConfig>(), 0U);
   EXPECT_GT(testing::expect_bounds_are_kept<ProjectorConfig>(), 0U);

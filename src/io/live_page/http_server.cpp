@@ -10,10 +10,12 @@
 #include <exception>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "client_socket.hpp"
 #include "http_message.hpp"
 #include "listening_socket.hpp"
+#include "open_heads.hpp"
 #include "worker_pool.hpp"
 
 namespace geoloc::io {
@@ -69,7 +71,8 @@ class HttpServer::Implementation {
  private:
   void accept_clients();
   void serve(int descriptor);
-  void talk(ClientSocket& socket);
+  bool run(const std::function<void()>& job);
+  void talk(ClientSocket& socket, int descriptor);
   void answer(ClientSocket& socket, const PageRequest& request);
   void send(ClientSocket& socket, const PageAnswer& answer, bool with_body) const;
   void stream_events(ClientSocket& socket, const PageAnswer& answer);
@@ -79,6 +82,7 @@ class HttpServer::Implementation {
   Answer answer_;
   std::function<Events()> open_events_;
   ListeningSocket listening_;
+  OpenHeads open_heads_;
   WorkerPool pool_;
   std::atomic<std::size_t> open_streams_{0};
   int stop_descriptor_;
@@ -107,24 +111,40 @@ HttpServer::Implementation::~Implementation() {
 
 void HttpServer::Implementation::accept_clients() {
   for (int client = 0; (client = listening_.accept(stop_descriptor_)) >= 0;) {
-    if (pool_.try_run([this, client] { serve(client); })) continue;
+    if (run([this, client] { serve(client); })) continue;
     ::send(client, kBusy.data(), kBusy.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     close(client);
   }
 }
 
+/// Runs it in a free thread, or in that of a client that has to go.
+bool HttpServer::Implementation::run(const std::function<void()>& job) {
+  constexpr int kAttempts = 50;
+  constexpr std::chrono::milliseconds kPause{4};
+  if (pool_.try_run(job)) return true;
+  if (!open_heads_.end_oldest()) return false;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    std::this_thread::sleep_for(kPause);
+    if (pool_.try_run(job)) return true;
+  }
+  return false;
+}
+
 void HttpServer::Implementation::serve(int descriptor) {
   try {
     ClientSocket socket(descriptor, stop_descriptor_, limits_);
-    talk(socket);
+    talk(socket, descriptor);
     socket.end();
   } catch (const std::exception&) {  // out of memory, at worst: drops this client, not the program
   }
   close(descriptor);
 }
 
-void HttpServer::Implementation::talk(ClientSocket& socket) {
-  const auto request = read_request(socket, limits_.head_bytes);
+void HttpServer::Implementation::talk(ClientSocket& socket, int descriptor) {
+  const auto request = [&] {
+    const OpenHeads::Reading reading(open_heads_, descriptor);
+    return read_request(socket, limits_.head_bytes);
+  }();
   if (!request) return;
   if (const Refusal* const refusal = std::get_if<Refusal>(&*request)) {
     send(socket, {refusal->status, "", "", false}, true);

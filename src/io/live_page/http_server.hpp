@@ -16,9 +16,9 @@ namespace geoloc::io {
 
 /// Limits to the resources that one client, and all of them together, can use.
 struct HttpLimits {
-  std::size_t connections = 96;                ///< at a time; further ones get 503 without being read
-  std::size_t event_streams = 64;              ///< of these
-  std::size_t head_bytes = 16384;              ///< of a request; there are no bodies
+  std::size_t connections = 96;    ///< at a time; a further one ends that whose request takes longest
+  std::size_t event_streams = 64;  ///< of these
+  std::size_t head_bytes = 16384;  ///< of a request; there are no bodies
   std::chrono::milliseconds head_time{5000};   ///< for all of a request
   std::chrono::milliseconds write_time{5000};  ///< by which a client may be behind slowest_bytes_per_s
   double slowest_bytes_per_s = 16384.0;

@@ -66,6 +66,11 @@ LivePage::~LivePage() {
   document_.close();
 }
 
+bool LivePage::is_open_to_network() const {
+  const std::string& host = endpoint_.host;
+  return host != "localhost" && host != "::1" && host.rfind("127.", 0) != 0;
+}
+
 std::string LivePage::url() const {
   const bool is_everywhere = endpoint_.host == "0.0.0.0" || endpoint_.host == "::";
   const bool is_v6 = endpoint_.host.find(':') != std::string::npos;

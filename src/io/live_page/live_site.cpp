@@ -26,13 +26,17 @@ std::string lower_case(std::string text) {
   return text;
 }
 
-/// The host without ":PORT", and an IPv6 address without its brackets.
+/// The host without ":PORT", and an IPv6 address without its brackets; empty for what is not just that, as
+/// "localhost:80@evil", whose host is "evil" for a browser.
 std::string host_of_header(const std::string& header) {
-  if (!header.empty() && header.front() == '[') {
-    const std::size_t end = header.find(']');
-    return end == std::string::npos ? "" : header.substr(1, end - 1);
-  }
-  return header.substr(0, header.find(':'));
+  const bool has_brackets = !header.empty() && header.front() == '[';
+  const std::size_t end = has_brackets ? header.find(']') : std::min(header.find(':'), header.size());
+  if (end == std::string::npos) return {};
+  const std::string_view rest = std::string_view(header).substr(end + (has_brackets ? 1 : 0));
+  const bool is_port = rest.empty() || (rest.front() == ':' &&
+                                        rest.find_first_not_of("0123456789", 1) == std::string_view::npos);
+  if (!is_port) return {};
+  return has_brackets ? header.substr(1, end - 1) : header.substr(0, end);
 }
 
 bool is_address(const std::string& host) {

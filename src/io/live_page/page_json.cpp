@@ -131,6 +131,7 @@ std::string estimator(const EstimatorReport& report) {
                      {{"Frames", counters.frames},
                       {"Frames located", counters.frames_located},
                       {"Frames without state", counters.frames_unusable},
+                      {"Frames damaged", counters.frames_damaged},
                       {"Detections", counters.detections},
                       {"Without ground point", counters.detections_without_fix},
                       {"Attitudes", counters.attitudes},

@@ -113,6 +113,8 @@ std::string JsonLines::status(const LiveStatus& status) {
                {"latency_ms", decimals(status.latency_ms, 1)},
                {"frames", status.frames},
                {"frames_unusable", status.frames_unusable},
+               {"frames_damaged", status.frames_damaged},
+               {"packets_lost", status.packets_lost},
                {"confirmed", status.objects},
                {"tentative", status.tentative}});
 }

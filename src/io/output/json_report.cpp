@@ -34,6 +34,7 @@ ordered_json counters_to_json(const RunCounters& counters) {
   return {{"frames", counters.frames},
           {"frames_located", counters.frames_located},
           {"frames_unusable", counters.frames_unusable},
+          {"frames_damaged", counters.frames_damaged},
           {"detections", counters.detections},
           {"detections_without_fix", counters.detections_without_fix},
           {"attitudes", counters.attitudes},

@@ -137,6 +137,14 @@ std::vector<std::string> read_class_names(const fs::path& file) {
   return names.get<std::vector<std::string>>();
 }
 
+std::uint64_t read_damaged(const fs::path& file) {
+  const json counts = json::parse(read_text_file(file), nullptr, false);
+  if (!counts.is_object() || !counts.contains("frames_damaged") ||
+      !counts["frames_damaged"].is_number_unsigned())
+    throw std::runtime_error(file.string() + ": frames_damaged must be a whole number from 0");
+  return counts["frames_damaged"].get<std::uint64_t>();
+}
+
 fs::path require_file(const fs::path& file) {
   if (!fs::is_regular_file(file)) {
     throw std::runtime_error(file.string() +
@@ -208,6 +216,7 @@ Recording read_recording(const fs::path& folder, BadLines bad_lines) {
   if (fs::exists(folder / "config.json")) recording.config_json = read_text_file(folder / "config.json");
   if (fs::exists(folder / "class_names.json"))
     recording.class_names = read_class_names(folder / "class_names.json");
+  if (fs::exists(folder / "counts.json")) recording.frames_damaged = read_damaged(folder / "counts.json");
   if (fs::exists(folder / "truth.geojson")) recording.truth = read_truth(folder / "truth.geojson");
   return recording;
 }

@@ -121,6 +121,10 @@ void RecordingWriter::write_truth(const std::vector<TrueTarget>& targets) {
   write_extra("truth.geojson", truth_to_geojson(targets));
 }
 
+void RecordingWriter::write_damaged(std::uint64_t frames) {
+  write_extra("counts.json", nlohmann::json{{"frames_damaged", frames}}.dump() + "\n");
+}
+
 void RecordingWriter::add_telemetry(HostTime received_at, const std::uint8_t* frame, std::size_t size) {
   const auto stamp_us = static_cast<std::uint64_t>(microseconds(received_at));
   std::string record;

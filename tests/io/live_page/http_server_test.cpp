@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <thread>
+#include <vector>
 
 #include "loopback_client.hpp"
 
@@ -68,6 +70,20 @@ TEST_F(Server, EndsAClientThatTakesItsAnswerTooSlowly) {
     ASSERT_LT(taken, 1U << 23U);
   }
   EXPECT_LT(taken, 1U << 23U);
+}
+
+TEST(ServerOfPatience, AnswersOthersWhileHundredsDribble) {
+  HttpLimits limits;
+  limits.head_time = 60s;
+  const auto answer = [](const PageRequest& request) { return PageAnswer{200, "", request.path, false}; };
+  const HttpServer server({"127.0.0.1", 0}, limits, {}, answer, nullptr);
+  std::vector<std::unique_ptr<LoopbackClient>> dribbling;
+  for (int i = 0; i < 200; ++i) {
+    dribbling.push_back(std::make_unique<LoopbackClient>(server.port()));
+    dribbling.back()->send("GET / HTTP/1.1\r\nX-And-So-On: ");
+  }
+  for (int i = 0; i < 20; ++i)
+    EXPECT_EQ(ask(server.port(), get_request("/abc")).rfind("HTTP/1.1 200", 0), 0U) << i;
 }
 
 TEST_F(Server, IsFreeForTheNextAfterHundredsOfClientsThatLeft) {

@@ -202,5 +202,13 @@ TEST_F(Page, IsFoundOnThisComputerAloneUnlessToldOtherwise) {
   EXPECT_EQ(page->url(), "http://127.0.0.1:" + std::to_string(port) + "/");
 }
 
+TEST(LivePageAt, AnAddressOfTheLoopbackIsNotOpenToTheNetwork) {
+  const auto is_open = [](const char* host) {
+    return LivePage({host, 0}, {}, {"a run", false}, {}).is_open_to_network();
+  };
+  EXPECT_TRUE(is_open("0.0.0.0"));
+  for (const char* host : {"127.0.0.1", "127.0.0.2", "localhost"}) EXPECT_FALSE(is_open(host)) << host;
+}
+
 }  // namespace
 }  // namespace geoloc::io

@@ -58,8 +58,10 @@ TEST_F(Site, AnswersToItsOwnNamesAndAddressesAlone) {
   for (const char* host : {"localhost", "LocalHost:8080", "127.0.0.1", "[::1]:8080", "192.168.4.1:80",
                            "drone.local", "drone:8080"})
     EXPECT_TRUE(is_own_host(host, kOwnNames)) << host;
-  for (const char* host : {"", "evil.example", "localhost.evil.example", "127.0.0.1.evil.example",
-                           "drone.evil", "[::1", ":8080", "127.1.evil", " localhost"})
+  for (const char* host :
+       {"", "evil.example", "localhost.evil.example", "127.0.0.1.evil.example", "drone.evil", "[::1", ":8080",
+        "127.1.evil", " localhost", "localhost:80@evil", "localhost:@evil", "127.0.0.1:80/../@evil",
+        "localhost:8o", "[::1]evil", "[::1]:80@evil", "localhost:80 evil", "localhost:-1"})
     EXPECT_FALSE(is_own_host(host, kOwnNames)) << host;
   EXPECT_FALSE(is_own_host(std::string(5000, '1'), kOwnNames));
   EXPECT_EQ(site.answer({"GET", "/", "evil.example", "", ""}).status, 421);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -69,6 +70,13 @@ TEST_F(PictureFile, IsReadAsItWasWritten) {
   EXPECT_EQ(jpeg.size(), picture.size());
 }
 
+TEST_F(PictureFile, OfWebpIsRead) {
+  std::vector<unsigned char> bytes;
+  constexpr int kLossless = 101;
+  ASSERT_TRUE(cv::imencode(".webp", colours(), bytes, {cv::IMWRITE_WEBP_QUALITY, kLossless}));
+  EXPECT_EQ(cv::norm(read(text_of(bytes)), colours(), cv::NORM_INF), 0.0);
+}
+
 TEST_F(PictureFile, OfGreyOrSixteenBitsOrWithTransparencyBecomesBgrOfEightBits) {
   const cv::Mat picture = colours();
   cv::Mat grey, grey_as_bgr, sixteen, transparent;
@@ -116,6 +124,21 @@ TEST_F(PictureFile, ThatClaimsAnAbsurdSizeIsRefused) {
   std::string bmp = encoded(".bmp", colours());
   bmp.replace(18, 8, "\xFF\xFF\xFF\x7F\xFF\xFF\xFF\x7F", 8);
   EXPECT_NE(fault_of(bmp), "none");
+}
+
+TEST_F(PictureFile, OfTooManyPixelsIsRefusedBeforeMemoryIsTaken) {
+  const auto number = [](std::uint32_t value) {
+    std::string bytes;
+    for (int byte = 0; byte < 4; ++byte, value >>= 8U) bytes += static_cast<char>(value);
+    return bytes;
+  };
+  std::string bmp = encoded(".bmp", colours());
+  bmp.replace(18, 8, number(32'000) + number(32'000));
+  EXPECT_NE(fault_of(bmp).find("has 32000 x 32000 pixels; pictures of more than 200 million are not read"),
+            std::string::npos)
+      << fault_of(bmp);
+  bmp.replace(18, 8, number(20'000) + number(10'000));  // not too many, but there is no data for them
+  EXPECT_EQ(fault_of(bmp).find("million"), std::string::npos) << fault_of(bmp);
 }
 
 TEST_F(PictureFile, DamagedAnywhereIsReadOrRefused) {

@@ -33,6 +33,7 @@ void write_recording(const std::filesystem::path& folder) {
   writer.write_truth({{7, 2, {-22.906123456789, -43.133987654321}, -1.25}});
   writer.add_telemetry(at_us(1'000'000), kHeartbeat.data(), kHeartbeat.size());
   writer.add_frame(some_frame(1'000'100));
+  writer.write_damaged(17);
   writer.add_frame({at_us(1'000'200), {}, std::nullopt});
   EXPECT_FALSE(std::filesystem::exists(folder));  // whole or not at all
   writer.finish();
@@ -47,6 +48,7 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   const RecordedFrame expected = some_frame(1'000'100);
   EXPECT_EQ(recording.frames[0].captured_at, expected.captured_at);
   EXPECT_EQ(recording.frames[0].telemetry_records, 1U);
+  EXPECT_EQ(recording.frames_damaged, 17U);
   ASSERT_EQ(recording.frames[0].detections.size(), 2U);
   EXPECT_EQ(recording.frames[0].detections[0].sigma_px, 0.37);
   EXPECT_EQ(recording.frames[0].detections[1].sigma_px, 0.0);
@@ -134,6 +136,18 @@ TEST(Recording, ReaderNamesWhatIsMissing) {
     }
   }
   EXPECT_THROW(read_recording(temporary.path() / "nowhere"), std::runtime_error);
+}
+
+TEST(Recording, WithoutCountsHasLeftOutNothingAndWithBadOnesIsRefused) {
+  const testing::TemporaryFolder temporary;
+  const auto folder = temporary.path() / "run";
+  write_recording(folder);
+  std::filesystem::remove(folder / "counts.json");
+  EXPECT_EQ(read_recording(folder).frames_damaged, 0U);
+  for (const char* text : {"", "[]", "{}", R"({"frames_damaged": -1})", R"({"frames_damaged": 0.5})"}) {
+    temporary.write("run/counts.json", text);
+    EXPECT_THROW(read_recording(folder), std::runtime_error) << text;
+  }
 }
 
 class BadFrameLine : public ::testing::TestWithParam<const char*> {};

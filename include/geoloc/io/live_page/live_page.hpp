@@ -39,6 +39,9 @@ class LivePage {
   /// Where a browser on this computer finds it: "http://127.0.0.1:8080/".
   std::string url() const;
 
+  /// Whether other computers can reach it.
+  bool is_open_to_network() const;
+
  private:
   HttpEndpoint endpoint_;
   LiveDocument document_;

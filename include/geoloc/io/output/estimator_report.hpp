@@ -17,7 +17,8 @@ struct RunCounters {
   std::uint64_t frames = 0;
   std::uint64_t frames_located = 0;
   std::uint64_t frames_unusable = 0;
-  std::uint64_t detections = 0;  ///< in located frames
+  std::uint64_t frames_damaged = 0;  ///< on their way, and left out; not among the frames
+  std::uint64_t detections = 0;      ///< in located frames
   std::uint64_t detections_without_fix = 0;
   std::uint64_t attitudes = 0;
   std::uint64_t positions = 0;

@@ -27,6 +27,8 @@ struct LiveStatus {
   double latency_ms = 0.0;  ///< from capture to result, mean
   std::uint64_t frames = 0;
   std::uint64_t frames_unusable = 0;  ///< without vehicle state
+  std::uint64_t frames_damaged = 0;   ///< left out; not among the frames
+  std::uint64_t packets_lost = 0;     ///< of the stream
   std::uint64_t objects = 0;          ///< confirmed
   std::uint64_t tentative = 0;
 };

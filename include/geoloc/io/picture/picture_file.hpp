@@ -13,7 +13,7 @@ bool is_picture(const std::filesystem::path& file);
 /// A picture of any format that OpenCV reads (JPEG, PNG, TIFF, BMP, WebP, …) as BGR of 8 bits: grey becomes
 /// BGR, 16 bits are rounded to 8, transparency is dropped, and the picture is rotated as its metadata says.
 /// Throws std::runtime_error naming the file and the fault: not readable, empty, no picture, damaged or
-/// truncated, too large, values that are no integers.
+/// truncated, more than 200 million pixels (before memory for them is taken), values that are no integers.
 cv::Mat read_picture(const std::filesystem::path& file);
 
 /// Whether bytes that begin as a JPEG continue to its end marker; decoders fill missing parts with grey.

@@ -25,6 +25,7 @@ struct Recording {
   std::optional<std::string> config_json;
   std::vector<std::string> class_names;  ///< by class id; empty where the recording has none
   std::vector<TrueTarget> truth;         ///< empty where the recording has none
+  std::uint64_t frames_damaged = 0;      ///< that were left out
   std::size_t skipped_lines = 0;
 };
 

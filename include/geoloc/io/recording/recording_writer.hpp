@@ -39,6 +39,8 @@ class RecordingWriter {
   void write_config(const std::string& json);
   void write_class_names(const std::vector<std::string>& names);
   void write_truth(const std::vector<TrueTarget>& targets);
+  /// Frames that were left out because they were damaged; at the end of the run.
+  void write_damaged(std::uint64_t frames);
   /// Any further small file, e.g. what a simulator injected.
   void write_extra(const std::string& name, const std::string& content);
 
