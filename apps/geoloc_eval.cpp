@@ -174,9 +174,6 @@ int main(int argc, char** argv) {
   std::vector<Sweep> sweeps;
   const auto unusable = guard("geoloc_eval", kUnusable, [&] {
     experiment = make_experiment(options);
-    if (!options.report_folder.empty())
-      check_report_folder(options.report_folder,
-                          joined({files_of_config(options.config_file), files_of(options.detector)}));
     if (!options.sweep.empty()) sweeps = find_sweeps(options.sweep);
     if (options.is_rendered) {
       sim::load_flight(experiment.flights_folder, options.rendered.flight);  // refuses an unknown one
@@ -184,6 +181,9 @@ int main(int argc, char** argv) {
       options.rendered.detection = with_backend(options.detector, {});
       io::open_detector(options.rendered.model, options.rendered.detection);  // refuses an unusable one
     }
+    if (!options.report_folder.empty())
+      check_report_folder(options.report_folder,
+                          joined({files_of_config(options.config_file), files_of(options.detector)}));
   });
   if (unusable) return *unusable;
 

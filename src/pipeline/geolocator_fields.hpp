@@ -26,9 +26,11 @@ struct EnumNames<Method> {
       {{Method::kPaper, "paper"}, {Method::kJoint, "joint"}}};
 };
 
-/// Whether a margin of that width leaves something of the image.
+/// Whether a margin of that width leaves something of the image. An image without a size is no matter of
+/// this.
 inline bool is_within_image(double margin_px, const CameraIntrinsics& image) {
-  return 2.0 * margin_px < std::min(image.width_px, image.height_px);
+  const int size_px = std::min(image.width_px, image.height_px);
+  return !kImageSize.contains(size_px) || 2.0 * margin_px < size_px;
 }
 
 template <class Visitor>

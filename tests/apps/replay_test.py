@@ -221,10 +221,9 @@ class BadRecordings(AppTest):
         self.assertIn("skipped 2 bad lines", result.err)
         self.assertTrue(self.out.exists())
 
-    def test_an_output_that_cannot_be_written_fails_the_run(self):
+    def test_an_output_that_cannot_be_written_ends_the_run_before_it_begins(self):
         result = run("geoloc_replay", self.recording, "--out", self.folder / "no such folder" / "objects.geojson")
-        self.assertEqual(result.status, 1)
-        self.assertIn("no such folder", result.err)
+        self.assert_refused(result, "no such folder")  # before the run
 
 
 class Settings(AppTest):

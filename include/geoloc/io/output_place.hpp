@@ -9,8 +9,8 @@ namespace geoloc::io {
 /// Where an output's name leads.
 struct OutputPlace {
   std::filesystem::path path;  ///< with links followed
-  /// A file, or none yet: it is written beside and takes the place when it is whole. Anything else (device,
-  /// FIFO, socket) is written to, and never replaced.
+  /// A file, or none yet: it is written beside and takes the place when it is whole, which the system denies
+  /// where a folder is. Anything else (device, FIFO, socket) is written to, and never replaced.
   bool is_file = false;
 };
 
@@ -25,7 +25,8 @@ inline OutputPlace output_place(std::filesystem::path name) {
     name = next;
   }
   const auto type = fs::status(name, ignored).type();
-  return {name, type == fs::file_type::not_found || type == fs::file_type::regular};
+  const bool is_none = type == fs::file_type::not_found;
+  return {name, is_none || type == fs::file_type::regular || type == fs::file_type::directory};
 }
 
 }  // namespace geoloc::io
