@@ -180,8 +180,7 @@ bool Recorder::State::wait_until_done() {
   return true;
 }
 
-Recorder::Recorder(const std::string& folder, const Write& write_settings,
-                   std::size_t most_waiting_bytes) {
+Recorder::Recorder(const std::string& folder, const Write& write_settings, std::size_t most_waiting_bytes) {
   if (folder.empty()) return;
   state_ = std::make_shared<State>(most_waiting_bytes);
   if (state_->begin(folder, write_settings)) thread_ = std::thread([state = state_] { state->run(); });

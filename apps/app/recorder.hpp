@@ -41,8 +41,8 @@ class Recorder {
   /// For the user, since the last call.
   std::vector<std::string> take_messages();
 
-  /// Waits for the disk while it makes progress; one that makes none for ten seconds is abandoned. `write_last`
-  /// may be called after this returns, then.
+  /// Waits for the disk while it makes progress; one that makes none for ten seconds is abandoned.
+  /// `write_last` may be called after this returns, then.
   void finish(Write write_last = {});
 
   /// The recording has ended early or is not whole. Final after finish().

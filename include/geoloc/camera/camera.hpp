@@ -76,8 +76,8 @@ class CameraModel {
   /// K^-1 p of eq. 9; nullopt where the pixel is not finite or the distortion has no inverse there.
   std::optional<ImageRay> ray(const Eigen::Vector2d& pixel) const;
 
-  /// The ray that shows a point in the camera (right-down-forward) [m]: that of pixel(), without inverting the
-  /// lens. nullopt where pixel() has none.
+  /// The ray that shows a point in the camera (right-down-forward) [m]: that of pixel(), without inverting
+  /// the lens. nullopt where pixel() has none.
   std::optional<ImageRay> ray_to(const Eigen::Vector3d& point_in_camera) const;
 
   /// Pixel of a point in the camera (right-down-forward) [m] (eq. 7); nullopt for a point behind the camera,
