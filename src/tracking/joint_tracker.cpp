@@ -50,21 +50,12 @@ void follow_ground(const GroundModel& ground, TrackTable& tracks) {
     set_ground(track, ground_prior(ground, track.position_in_enu.head<2>(), 0.0));
 }
 
-/// An object's covariance costs as much as its part in the solution: it is computed anew where the looks at
-/// the object have grown by so much, and for the rest in turns of so many solutions.
-constexpr double kGrowthOfLooks = 1.1;
-constexpr std::uint64_t kTurnsOfCovariance = 4;
-
-bool is_covariance_due(const RestingObject& object, std::uint64_t solution) {
-  return object.track.hits >= kGrowthOfLooks * object.hits_at_covariance ||
-         (object.track.id + solution) % kTurnsOfCovariance == 0;
-}
-
-void update_covariance(const ArrowheadSolver::Solution& solution, RestingObject& object) {
-  const PointMatrix covariance = solution.covariance(*object.landmark);
-  object.track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
-  object.sigma_height_m = std::sqrt(covariance(2, 2));
-  object.hits_at_covariance = object.track.hits;
+void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
+  for (RestingObject& track : tracks) {
+    const PointMatrix covariance = solution.covariance(*track.landmark);
+    track.track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
+    track.sigma_height_m = std::sqrt(covariance(2, 2));
+  }
 }
 
 /// What an object's position is off by besides what all of them are, per axis: half of what it differs from
@@ -426,13 +417,9 @@ void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, 
   if (!solution) return;
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
-  for (RestingObject& track : tracks_) {
-    if (is_covariance_due(track, schedule_.number())) update_covariance(*solution, track);
-  }
+  update_covariances(*solution, tracks_);
   if (!match_known_points(*solution, noise)) return;
-  const auto with_known_points = solve(located, frame);
-  if (!with_known_points) return;
-  for (RestingObject& track : tracks_) update_covariance(*with_known_points, track);
+  if (const auto with_known_points = solve(located, frame)) update_covariances(*with_known_points, tracks_);
 }
 
 std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame& located,

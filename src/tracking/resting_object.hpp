@@ -29,8 +29,7 @@ struct RestingObject : TrackedObject {
   PointInformation ground;                ///< that of the ground alone
   Point position_in_enu = Point::Zero();  ///< up: above the level ground [m]
   double sigma_height_m = 0.0;
-  int hits_at_covariance = 0;  ///< of the track, when its covariance was last computed
-  VehicleTime sums_since{};    ///< earlier looks are not in the sums
+  VehicleTime sums_since{};                             ///< earlier looks are not in the sums
   PointMatrix pixel_information = PointMatrix::Zero();  ///< sum of the looks' and the ground's [1/m^2]
   PointMatrix pixel_covariance = PointMatrix::Zero();   ///< its inverse [m^2]
   PointMatrix own_covariance = PointMatrix::Zero();     ///< A^-1 [m^2]

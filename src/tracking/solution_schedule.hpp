@@ -31,9 +31,6 @@ class SolutionSchedule {
     is_requested_ = false;
   }
 
-  /// The present one, from 1 on.
-  std::uint64_t number() const { return solutions_; }
-
   /// Whether the wandering is to be learnt with the present one: with each until it has settled, then now and
   /// then, since it costs as much as a solution.
   bool teaches_wandering() const {

@@ -59,7 +59,7 @@ struct JointTrackerConfig {
   double merge_gate = 11.3;  ///< squared Mahalanobis distance in space; 99 %
   int max_tracks = 1000;
 
-  double solve_period_s = 3.0;
+  double solve_period_s = 2.0;
 
   std::vector<std::string> problems() const;
 };
