@@ -122,8 +122,11 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
       program.outputs.post_status(state);
       if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
     }
-    if (files.is_due(now)) program.outputs.post_run(program.record());
+    if (!files.is_due(now)) continue;
+    program.session.note_damaged(worker.stats().damaged);
+    program.outputs.post_run(program.record());
   }
+  program.session.note_damaged(worker.stats().damaged);
 }
 
 /// False where stdout does not take it.

@@ -37,8 +37,7 @@ std::string DamageWatch::text(const Sample& since, const Sample& now) const {
                            : "the camera itself leaves them out, so lower its bit rate";
   return fmt::format(
       "video: frames come, but {:.0f} % of them are damaged and left out, for {:.1f} % of the packets are "
-      "lost: "
-      "{}",
+      "lost: {}",
       100.0 * share(now.damaged - since.damaged, now.frames - since.frames),
       100.0 * share(lost, lost + now.packets - since.packets), remedy);
 }

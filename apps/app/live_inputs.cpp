@@ -25,7 +25,7 @@ void guard_link(LiveInputs& inputs) {
   std::optional<io::LinkSigning> signing;
   if (!config.signing_key_file.empty()) {
     const io::SigningKey key = read_signing_key(config.signing_key_file);
-    inputs.signing_store = open_signing_store(config);
+    inputs.signing_store = std::make_unique<SigningStore>(signing_state_file(config));
     signing.emplace(key, inputs.signing_store->known());
   }
   inputs.guard = std::make_unique<io::LinkGuard>(config, signing);

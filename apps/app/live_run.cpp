@@ -53,7 +53,6 @@ void LiveRun::send(const std::uint8_t* frame, std::size_t size) {
 }
 
 void LiveRun::take_frames() {
-  session_.note_damaged(worker_.stats().damaged);
   for (DetectedFrame& frame : worker_.take()) {
     const double time_sigma_s = stamp_sigma_.observe(frame.time_quality, frame.received_at);
     if (frame.captured_at <= newest_captured_ || frame.captured_at > clock_.now() + kFuture) {

@@ -80,10 +80,9 @@ void SigningStore::run() {
   }
 }
 
-std::unique_ptr<SigningStore> open_signing_store(const io::MavlinkConfig& config) {
-  if (config.signing_key_file.empty()) return nullptr;
+std::filesystem::path signing_state_file(const io::MavlinkConfig& config) {
   const std::string& stated = config.signing_state_file;
-  return std::make_unique<SigningStore>(stated.empty() ? config.signing_key_file + ".stamps" : stated);
+  return stated.empty() ? config.signing_key_file + ".stamps" : stated;
 }
 
 io::SigningKey read_signing_key(const std::filesystem::path& file) {

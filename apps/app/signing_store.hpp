@@ -3,7 +3,6 @@
 
 #include <condition_variable>
 #include <filesystem>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -48,8 +47,8 @@ class SigningStore {
   std::thread writer_;
 };
 
-/// Where the configuration says, or beside the key; nullptr where nothing is signed.
-std::unique_ptr<SigningStore> open_signing_store(const io::MavlinkConfig& config);
+/// Where the configuration says, or beside the key.
+std::filesystem::path signing_state_file(const io::MavlinkConfig& config);
 
 /// Throws std::runtime_error naming the file and the remedy.
 io::SigningKey read_signing_key(const std::filesystem::path& file);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/count_list.hpp"
+
 namespace geoloc::apps {
 namespace {
 
@@ -70,16 +72,12 @@ std::string refusal_message(const io::LinkGuard& guard, HostTime now) {
 }
 
 std::string count_of_refusals(const io::LinkGuard::Counts& counts) {
-  std::string all;
-  const auto add = [&all](std::uint64_t count, const char* what) {
-    if (count > 0) all += fmt::format("{}{} {}", all.empty() ? "" : ", ", count, what);
-  };
-  add(counts.unsigned_frames, "not signed");
-  add(counts.wrong_signatures, "signed by another key");
-  add(counts.repeated_signatures, "repeated");
-  add(counts.second_source, "of a second source of the same system");
-  add(counts.unasked_timesyncs, "that answered no TIMESYNC request");
-  return all.empty() ? all : "MAVLink messages refused: " + all;
+  return list_of_counts("MAVLink messages refused",
+                        {{counts.unsigned_frames, "not signed"},
+                         {counts.wrong_signatures, "signed by another key"},
+                         {counts.repeated_signatures, "repeated"},
+                         {counts.second_source, "of a second source of the same system"},
+                         {counts.unasked_timesyncs, "that answered no TIMESYNC request"}});
 }
 
 }  // namespace geoloc::apps

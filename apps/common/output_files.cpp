@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "geoloc/io/output_place.hpp"
+#include "geoloc/io/recording/recording_files.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -101,14 +102,12 @@ void check_outputs(const NamedFiles& outputs, const NamedFiles& inputs) {
 
 NamedFiles files_of_recording(const fs::path& folder) {
   NamedFiles files;
-  for (const char* name : {"telemetry.tlog", "frames.jsonl", "camera.json", "config.json", "class_names.json",
-                           "counts.json", "truth.geojson"})
-    files.push_back({"RECORDING", folder / name});
+  for (const char* name : io::kRecordingFiles) files.push_back({"RECORDING", folder / name});
   return files;
 }
 
 void refuse_recording(const char* option, const fs::path& folder) {
-  for (const char* name : {"telemetry.tlog", "frames.jsonl"}) {
+  for (const char* name : {io::kTelemetryFile, io::kFramesFile}) {
     if (fs::exists(folder / name))
       throw std::runtime_error(std::string(option) + " " + folder.string() +
                                ": is a recording; name another folder");

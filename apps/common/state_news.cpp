@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/count_list.hpp"
 #include "geoloc/geometry/angles.hpp"
 
 namespace geoloc::apps {
@@ -58,15 +59,10 @@ std::string count_of_turned(const Geolocator& geolocator) {
 }
 
 std::string count_of_jumps(const StateProvider::Counters& counters) {
-  std::string all;
-  const auto add = [&all](std::uint64_t count, const char* what) {
-    if (count > 0) all += fmt::format("{}{} of {}", all.empty() ? "" : ", ", count, what);
-  };
-  add(counters.position_steps, "the position");
-  add(counters.height_steps, "the height");
-  add(counters.yaw_steps, "the yaw");
-  add(counters.home_moves, "home");
-  return all.empty() ? all : "jumps noticed in the vehicle's state: " + all;
+  return list_of_counts("jumps noticed in the vehicle's state", {{counters.position_steps, "of the position"},
+                                                                 {counters.height_steps, "of the height"},
+                                                                 {counters.yaw_steps, "of the yaw"},
+                                                                 {counters.home_moves, "of home"}});
 }
 
 }  // namespace geoloc::apps

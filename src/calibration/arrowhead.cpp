@@ -15,13 +15,6 @@ constexpr int kCalibration = CalibrationIndex::kSize;
 /// Stands for "exactly known": keeps the information finite.
 constexpr double kLeastSigma = 1e-9;
 
-/// Where the head's part begins that concerns the object: at the oldest node that it was seen at.
-Eigen::Index first_column(const Landmark& landmark, const HeadLayout& layout) {
-  if (!landmark.spells().is_empty()) return layout.column_of_spell(landmark.spells().begin()->number);
-  return landmark.begin() == landmark.end() ? layout.column_of_calibration()
-                                            : layout.column_of(landmark.begin()->number);
-}
-
 Eigen::Index room_for(const DriftConfig& drift) {
   return HeadLayout{0, static_cast<std::uint32_t>(drift.max_nodes) + 2, 0,
                     static_cast<std::uint32_t>(drift.max_spells) + 2}
@@ -196,84 +189,6 @@ std::optional<ArrowheadSolver::Solution> ArrowheadSolver::solve(const std::vecto
   if (!information_.factorize()) return std::nullopt;
   information_.solve(right_hand_side_.head(layout.size()));
   return Solution(*this, layout);
-}
-
-ArrowheadSolver::Solution::Solution(ArrowheadSolver& solver, const HeadLayout& layout)
-    : solver_(&solver),
-      layout_(layout),
-      newest_covariance_(solver.information_.last_of_inverse<kNodeSize + kCalibration>()) {}
-
-Calibration ArrowheadSolver::Solution::calibration() const {
-  return {solver_->right_hand_side_.segment<kCalibration>(layout_.column_of_calibration()),
-          newest_covariance_.bottomRightCorner<kCalibration, kCalibration>()};
-}
-
-NodeVector ArrowheadSolver::Solution::node(std::uint32_t number) const {
-  return solver_->right_hand_side_.segment<kNodeSize>(layout_.column_of(number));
-}
-
-SwayVector ArrowheadSolver::Solution::spell(std::uint32_t number) const {
-  return solver_->right_hand_side_.segment<kSwaySize>(layout_.column_of_spell(number));
-}
-
-NodeMatrix ArrowheadSolver::Solution::newest_node_covariance() const {
-  return newest_covariance_.topLeftCorner<kNodeSize, kNodeSize>();
-}
-
-std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftTimeline& drift) const {
-  constexpr int kEnoughNodes = 8;
-  if (drift.size() < kEnoughNodes) return std::nullopt;
-  double sum = 0.0;
-  int count = 0;
-  EnvelopeCholesky::Rows& steps = solver_->sensitivities_;  // the third row stays zero
-  for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number) {
-    const DriftNode& node = drift.node(number);
-    if (node.is_after_step()) continue;
-    const Eigen::Index here = layout_.column_of(number), before = here - kNodeSize;
-    const Eigen::Array2d transition = node.transition.head<2>();
-    const Eigen::Array2d step =
-        node.mean.head<2>().array() - transition * drift.node(number - 1).mean.head<2>().array();
-    steps.setZero();
-    steps.block<2, 2>(0, here).setIdentity();
-    steps.block<2, 2>(0, before).diagonal() = -transition;
-    solver_->information_.solve_lower(steps, before);
-    const Eigen::Array2d variance = steps.block(0, 0, 2, layout_.size()).rowwise().squaredNorm();
-    sum += ((step.square() + variance) * node.information.head<2>().array()).sum();
-    count += 2;
-  }
-  if (count == 0) return std::nullopt;
-  return std::sqrt(sum / count);
-}
-
-void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign) {
-  const PointMatrix A_inverse = sign * landmark.A().inverse();
-  sensitivities_.middleCols<kCalibration>(layout.column_of_calibration()) += A_inverse * landmark.B();
-  for (const Landmark::NodeTerms& terms : landmark)
-    sensitivities_.middleCols<kNodeSize>(layout.column_of(terms.number)) += A_inverse * terms.B;
-  for (const Landmark::SpellTerms& terms : landmark.spells())
-    sensitivities_.middleCols<kSwaySize>(layout.column_of_spell(terms.number)) += A_inverse * terms.B;
-}
-
-/// G S^-1 G' of the sensitivities gathered, which are zero before `first`.
-PointMatrix ArrowheadSolver::head_covariance(Eigen::Index first) {
-  information_.solve_lower(sensitivities_, first);
-  const auto used = sensitivities_.middleCols(first, information_.size() - first);
-  return used.lazyProduct(used.transpose());
-}
-
-PointMatrix ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
-  solver_->sensitivities_.leftCols(layout_.size()).setZero();
-  solver_->add_sensitivity(landmark, layout_, 1.0);
-  solver_->sensitivities_(2, layout_.column_of_calibration() + CalibrationIndex::kHeight) -= 1.0;
-  return landmark.A().inverse() + solver_->head_covariance(first_column(landmark, layout_));
-}
-
-PointMatrix ArrowheadSolver::Solution::covariance_of_difference(const Landmark& a, const Landmark& b) const {
-  solver_->sensitivities_.leftCols(layout_.size()).setZero();
-  solver_->add_sensitivity(a, layout_, 1.0);
-  solver_->add_sensitivity(b, layout_, -1.0);
-  return a.A().inverse() + b.A().inverse() +
-         solver_->head_covariance(std::min(first_column(a, layout_), first_column(b, layout_)));
 }
 
 }  // namespace geoloc

@@ -54,7 +54,7 @@ class EnvelopeCholesky {
  private:
   void factorize_three(Eigen::Index i, Eigen::Index j);
 
-  /// Of two rows, from column `begin` to `end`.
+  /// Scalar product of two rows, from column `begin` to `end`.
   double dot(Eigen::Index i, Eigen::Index j, Eigen::Index begin, Eigen::Index end) const;
 
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows_;

@@ -21,6 +21,10 @@ inline const Lanes& lanes(const double* from) {
   return *reinterpret_cast<const Lanes*>(from);
 }
 
+inline double sum_of(const Lanes& lanes) {
+  return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);
+}
+
 }  // namespace
 
 GEOLOC_WIDE_REGISTERS
@@ -33,8 +37,7 @@ double dot_of_rows(const double* x, const double* y, std::size_t size) {
   }
   double rest = 0.0;
   for (; i < size; ++i) rest += x[i] * y[i];
-  const Lanes sum = even + odd;
-  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + rest;
+  return sum_of(even + odd) + rest;
 }
 
 GEOLOC_WIDE_REGISTERS
@@ -51,7 +54,7 @@ std::array<double, 3> dots_of_rows(const double* x, const std::array<const doubl
   for (std::size_t k = 0; k < 3; ++k) {
     double rest = 0.0;
     for (std::size_t r = i; r < size; ++r) rest += x[r] * y[k][r];
-    dots[k] = ((sums[k][0] + sums[k][1]) + (sums[k][2] + sums[k][3])) + rest;
+    dots[k] = sum_of(sums[k]) + rest;
   }
   return dots;
 }

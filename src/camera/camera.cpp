@@ -41,7 +41,7 @@ bool is_invertible(const Eigen::Matrix2d& jacobian) {
   return std::abs(jacobian.determinant()) > 1e-9;
 }
 
-/// Of a ray whose Jacobian is by the distorted coordinates.
+/// Takes a ray whose Jacobian is by the distorted coordinates.
 ImageRay by_pixel(ImageRay ray, const CameraIntrinsics& intrinsics) {
   ray.normalized_from_pixel.col(0) /= intrinsics.fx_px;
   ray.normalized_from_pixel.col(1) /= intrinsics.fy_px;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tracking/frame_boxes.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -12,8 +14,6 @@ namespace {
 constexpr double kDoubtToHold = 3.0, kMostDoubt = 12.0;
 /// New objects that come into view, per frame.
 constexpr double kNewPerFrame = 0.2;
-/// A latency that is nearer is what the solver finds by itself.
-constexpr double kLeastChange_s = 0.15;
 /// Frames see the same objects in the same places for so long: they count as one.
 constexpr double kIndependent_s = 0.5;
 /// What another latency must be better by to be believed: it is one of 141 (ln 141 = 5), with as much to
@@ -34,7 +34,7 @@ constexpr double kUnknown = -10.0;
 constexpr std::size_t kFramesForShift = 32;
 
 bool is_another(int number, double believed_s) {
-  return std::abs(LatencyScores::latency_s(number) - believed_s) >= kLeastChange_s;
+  return std::abs(LatencyScores::latency_s(number) - believed_s) >= kLeastLatencyChange_s;
 }
 
 }  // namespace

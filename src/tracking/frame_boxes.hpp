@@ -12,6 +12,9 @@
 
 namespace geoloc {
 
+/// A latency that is nearer to the one believed is what the solver finds by itself.
+inline constexpr double kLeastLatencyChange_s = 0.15;
+
 /// The boxes of a frame, the most confident ones.
 struct FrameBoxes {
   static constexpr std::size_t kMost = 16;

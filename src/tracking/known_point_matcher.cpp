@@ -13,7 +13,7 @@ namespace geoloc {
 namespace {
 
 /// What hides an object from one frame hides it from those that follow within a second.
-constexpr double kIndependent_s = 1.0;
+constexpr double kIndependentLooks_s = 1.0;
 /// However often the camera looked there: a few points in a thousand have no object (any more), or one that
 /// the detector does not know, or that is lost for a while.
 constexpr double kGone = 3e-3;
@@ -42,8 +42,8 @@ KnownPointMatcher::KnownPointMatcher(std::vector<KnownPoint> points, int max_tra
 
 /// A first frame says all that a look can say.
 void KnownPointMatcher::look_at(Entry& entry, VehicleTime now, double found) {
-  const double pause_s = entry.covered_at ? seconds(now - *entry.covered_at) : kIndependent_s;
-  const double share = std::clamp(pause_s / kIndependent_s, 0.0, 1.0);
+  const double pause_s = entry.covered_at ? seconds(now - *entry.covered_at) : kIndependentLooks_s;
+  const double share = std::clamp(pause_s / kIndependentLooks_s, 0.0, 1.0);
   entry.unseen *= std::pow(1.0 - found, share);
   entry.covered_at = now;
 }

@@ -15,8 +15,6 @@ constexpr double kMostApart_px = 15.0, kUsualWidth_px = 1280.0;
 /// Latencies that are tried.
 constexpr int kLatencies = 34, kFineSteps = 5;
 constexpr double kStep_s = 0.1;
-/// One that is nearer is what the solver finds by itself.
-constexpr double kLeastChange_s = 0.15;
 /// As many pairs of frames are judged by at most, and so many boxes at least.
 constexpr int kMostPairs = 15, kLeastLooks = 12;
 /// Chance alone, by boxes that are missed, makes some latency better than another; not by so much in all.
@@ -142,7 +140,7 @@ std::optional<double> LatencyWatch::search(const CalibratedViewer& viewer) const
   if (present.looks < kLeastLooks || present.mean_px2() < kHopeless_px2) return std::nullopt;
   Grid grid(kFarBetter * present.mean_px2());
   for (int number = 0; number < Grid::kSize; ++number) {
-    if (std::abs(Grid::latency_s(number) - present_s) < kLeastChange_s) continue;
+    if (std::abs(Grid::latency_s(number) - present_s) < kLeastLatencyChange_s) continue;
     const Distance other = distance(Grid::latency_s(number), viewer);
     if (other.looks >= kLeastLooks && other.gain_px2(present) > kLeastGain_px2)
       grid.set(number, other.mean_px2());

@@ -161,7 +161,7 @@ bool PlaceFit::could_tell_latency(const FrameBoxes& frame, double latency_s,
                         [](const Eigen::Vector2d&, double) { return true; });
 }
 
-/// Of the places shown, one that counts, and that another latency would show elsewhere.
+/// Whether a place that is shown counts, and another latency would show it elsewhere.
 template <typename Counts>
 bool PlaceFit::any_that_moves(const FrameBoxes& frame, double latency_s, double other_by_s,
                               const std::vector<WatchedPlace>& places, const Counts& counts) const {

@@ -7,13 +7,13 @@ namespace geoloc {
 namespace {
 
 /// Room for so many frames of as many looks as one may have; frames of fewer looks last for longer.
-constexpr std::size_t kFrames = 16;
+constexpr std::size_t kFramesRemembered = 16;
 constexpr std::size_t kLeastEntries = 1000;
 
 }  // namespace
 
 RecentLooks::RecentLooks(int max_looks_per_frame)
-    : entries_(std::max(kLeastEntries, kFrames * static_cast<std::size_t>(max_looks_per_frame))) {}
+    : entries_(std::max(kLeastEntries, kFramesRemembered * static_cast<std::size_t>(max_looks_per_frame))) {}
 
 void RecentLooks::add(std::uint64_t track_id, VehicleTime time, const Look& look) {
   entries_[next_] = {track_id, time, look.observation, look.pixel_noise};

@@ -7,14 +7,14 @@ namespace geoloc {
 namespace {
 
 /// Fifty seconds at ten frames a second, and fifteen detections in each.
-constexpr std::size_t kFrames = 512;
+constexpr std::size_t kFramesWaiting = 512;
 constexpr std::size_t kFullFrames = 32;
 constexpr std::size_t kLeastDetections = 8000;
 
 }  // namespace
 
 WaitingFrames::WaitingFrames(int max_detections)
-    : entries_(kFrames),
+    : entries_(kFramesWaiting),
       detections_(std::max(kLeastDetections, kFullFrames * static_cast<std::size_t>(max_detections))),
       max_detections_(static_cast<std::size_t>(max_detections)) {
   located_.reserve(max_detections_);

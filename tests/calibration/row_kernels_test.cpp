@@ -30,7 +30,7 @@ class RowKernels : public ::testing::Test {
   std::normal_distribution<double> normal_;
 };
 
-/// Of every length, and from any address.
+/// Rows have any length, and begin at any address.
 TEST_F(RowKernels, GiveWhatPlainLoopsGive) {
   const std::vector<double> x = row(), y0 = row(), y1 = row(), y2 = row();
   for (std::size_t from = 0; from < 2; ++from) {

@@ -96,16 +96,21 @@ class Honest:
                 return
 
 
-class Dripping(Honest):
-    """Sends its answer to one method a byte at a time, and with it goes on for ever."""
+class HostileTo(Honest):
+    """Answers one method by `misanswer`, and the others honestly."""
 
     def __init__(self, server, connection, method):
         super().__init__(server, connection)
         self.method = method
 
     def answer(self, method, sequence):
-        if method != self.method:
-            return super().answer(method, sequence)
+        return self.misanswer(sequence) if method == self.method else super().answer(method, sequence)
+
+
+class Dripping(HostileTo):
+    """Sends its answer to one method a byte at a time, and with it goes on for ever."""
+
+    def misanswer(self, sequence):
         self.drip(f"RTSP/1.0 200 OK\r\n{sequence}\r\n".encode())
         while not self.server.ended.is_set():
             self.drip(b"X-Header: and one more\r\n")
@@ -119,16 +124,10 @@ class DrippingFrames(Honest):
             self.drip(b"$\0\xff\xff" + b"\0" * 64)
 
 
-class EndlessBody(Honest):
+class EndlessBody(HostileTo):
     """Answers one method with a body of 4 GB, as fast as it is taken."""
 
-    def __init__(self, server, connection, method):
-        super().__init__(server, connection)
-        self.method = method
-
-    def answer(self, method, sequence):
-        if method != self.method:
-            return super().answer(method, sequence)
+    def misanswer(self, sequence):
         self.send(f"RTSP/1.0 200 OK\r\n{sequence}\r\nContent-Type: application/sdp\r\n"
                   f"Content-Length: 4294967294\r\n\r\n".encode())
         while not self.server.ended.is_set():

@@ -118,8 +118,9 @@ class LossyStreams(AppTest):
         states = [line for line in map(json.loads, lines.read_text().splitlines()) if line["type"] == "status"]
         self.assertGreaterEqual(states[-1]["frames_damaged"], damaged - 10)
         self.assertGreater(states[-1]["packets_lost"], 10)
-        self.assertIn("damaged", states[-1]["video"])
-        self.assertFalse(states[-1]["video_is_good"])
+        # The last states may be of the seconds after the camera's end.
+        last_of_stream = next(state for state in reversed(states) if "damaged" in state["video"])
+        self.assertFalse(last_of_stream["video_is_good"])
         self.assertEqual(run("geoloc_replay", self.folder / "recording", "--out", replayed).status, 0)
         self.assertEqual(objects.read_bytes(), replayed.read_bytes())
         print(f"3 % of packets lost: {damaged} frames damaged, {len(states)} states, {app.lines[-2:]}")

@@ -15,16 +15,6 @@
 
 namespace geoloc::io {
 
-/// Does what writes to the file; a std::system_error of it becomes that of fail_to_write().
-template <typename Step>
-void write_to(const std::filesystem::path& file, const Step& step) {
-  try {
-    step();
-  } catch (const std::system_error& error) {
-    fail_to_write(file, error.code().value());
-  }
-}
-
 /// The temporary name of a file while it is written, beside its own: readers see either the old content or
 /// the new. A file that is not committed is removed. Links are followed; a device, FIFO or socket has no
 /// temporary name, and stays.

@@ -27,4 +27,15 @@ class WriteFailure : public std::runtime_error {
   throw WriteFailure(file, error != 0 ? error : EIO);
 }
 
+/// Does what writes to the file, and returns its result; a std::system_error of it becomes that of
+/// fail_to_write().
+template <typename Step>
+auto write_to(const std::filesystem::path& file, const Step& step) {
+  try {
+    return step();
+  } catch (const std::system_error& error) {
+    fail_to_write(file, error.code().value());
+  }
+}
+
 }  // namespace geoloc::io

@@ -28,8 +28,8 @@ class Projector {
   Expected<GroundFix, NoFix> project(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera,
                                      const GroundModel& ground) const;
 
-  /// Of a point that need not lie in the plane: where its ray meets the level of its height, which is itself.
-  /// NoFix where project() has none for its pixel.
+  /// The fix of a point that need not lie in the plane: as if the ground were level at its height. NoFix
+  /// where project() has none for its pixel.
   Expected<GroundFix, NoFix> fix_of_point(const Eigen::Vector3d& point_in_enu,
                                           const Rigid3d& enu_from_camera) const;
 

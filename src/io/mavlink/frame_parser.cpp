@@ -4,19 +4,11 @@
 #include <algorithm>
 
 #include "checksum.hpp"
+#include "frame_format.hpp"
 #include "geoloc/io/mavlink/message_table.hpp"
 
 namespace geoloc::io {
 namespace {
-
-constexpr std::uint8_t kMagicV1 = 0xFE;
-constexpr std::uint8_t kMagicV2 = 0xFD;
-constexpr std::size_t kHeaderSizeV1 = 6;
-constexpr std::size_t kHeaderSizeV2 = 10;
-constexpr std::size_t kChecksumSize = 2;
-constexpr std::size_t kSignatureSize = 13;
-constexpr std::uint8_t kSignedFlag =
-    0x01;  // the only defined incompatibility flag; a frame with another one cannot be read
 
 enum class Finding { kFrame, kBadFrame, kUnknownMessage, kNoFrame, kNeedsMoreBytes };
 

@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "checksum.hpp"
+#include "frame_format.hpp"
 #include "geoloc/io/mavlink/message_table.hpp"
 
 namespace geoloc::io {
@@ -16,14 +17,10 @@ namespace {
 
 constexpr std::size_t kDigestSize = 6;  // of SHA-256, its first bytes
 constexpr std::size_t kStampSize = 6;
-constexpr std::size_t kSignatureSize = 1 + kStampSize + kDigestSize;
-constexpr std::size_t kChecksumSize = 2;
-constexpr std::size_t kHeaderSizeV2 = 10;
-constexpr std::uint8_t kMagicV2 = 0xFD;
-constexpr std::uint8_t kSignedFlag = 0x01;
+static_assert(kSignatureSize == 1 + kStampSize + kDigestSize);
 constexpr std::uint8_t kOurLink = 0;
 
-/// Of stamps: six bytes hold no more.
+/// The last stamp that six bytes hold.
 constexpr std::uint64_t kLastStamp = (std::uint64_t{1} << 48) - 1;
 constexpr std::uint64_t kMinute = 6'000'000;
 
@@ -138,7 +135,7 @@ void LinkSigning::note(const Frame& frame) {
   stamps_.heard = std::max(stamps_.heard, arrived.stamp);
 }
 
-/// Of a signed frame.
+/// The frame must be signed.
 LinkSigning::Stream LinkSigning::stream_of(const Frame& frame) {
   const std::uint8_t* const signature = frame.bytes + frame.size - kSignatureSize;
   return {frame.sender, signature[0], read_stamp(signature + 1)};

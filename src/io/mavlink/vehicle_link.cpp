@@ -278,7 +278,8 @@ LinkStatus VehicleLink::status(HostTime now) const {
   status.other_system = choice_.other_system(now);
   status.is_v2 = is_v2_;
   status.fix_type = gate_.fix_type();
-  status.position_refusal = gate_.veto(now) ? gate_.veto(now) : last_refusal_;
+  const auto veto = gate_.veto(now);
+  status.position_refusal = veto ? veto : last_refusal_;
   status.has_gnss_glitch = gate_.has_gnss_glitch(now);
   status.attitude_rate_hz = attitude_meter_.rate_hz(now);
   status.position_rate_hz = position_meter_.rate_hz(now);

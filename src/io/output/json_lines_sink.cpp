@@ -17,9 +17,17 @@ JsonLinesSink::JsonLinesSink(std::string target, OldFile old_file, TellUser tell
       tell_(std::move(tell)),
       place_(output_place(target_)) {}
 
-void JsonLinesSink::fail(int error) {
-  has_failed_ = true;
-  throw std::runtime_error(name() + ": cannot be written: " + std::generic_category().message(error));
+/// After a step that has failed there are no more.
+template <typename Step>
+void JsonLinesSink::attempt(const Step& step) {
+  if (has_failed_) return;
+  try {
+    step();
+  } catch (const std::system_error& error) {
+    has_failed_ = true;
+    throw std::runtime_error(name() +
+                             ": cannot be written: " + std::generic_category().message(error.code().value()));
+  }
 }
 
 /// Called only for the first line, because a named pipe makes its writer wait for a reader.
@@ -41,38 +49,27 @@ void JsonLinesSink::open_partial() {
 }
 
 void JsonLinesSink::write(const std::string& lines) {
-  if (has_failed_) return;
-  try {
+  attempt([&] {
     if (!stream_) open();
     stream_->write(lines);
-  } catch (const std::system_error& error) {
-    fail(error.code().value());
-  }
+  });
 }
 
 void JsonLinesSink::on_status(const LiveStatus& status) {
   write(JsonLines::status(status));
-  if (has_failed_ || !is_file()) return;
-  try {
-    stream_->sync();
-  } catch (const std::system_error& error) {
-    fail(error.code().value());
-  }
+  if (is_file()) attempt([this] { stream_->sync(); });
 }
 
 void JsonLinesSink::on_end() {
   if (!stream_ && last_lines_.empty()) return;  // the run did not begin
   write(last_lines_);
-  if (has_failed_) return;
-  try {
+  attempt([this] {
     if (is_file()) stream_->sync();
     stream_->close();
     if (!is_file()) return;
     if (old_file_ == OldFile::kKeep) keep_and_tell(place_.path, tell_);
     std::filesystem::rename(partial_, place_.path);
-  } catch (const std::system_error& error) {
-    fail(error.code().value());
-  }
+  });
 }
 
 }  // namespace geoloc::io

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/recording/recording_files.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -207,17 +208,17 @@ std::vector<TrueTarget> read_truth(const fs::path& file) {
 Recording read_recording(const fs::path& folder, BadLines bad_lines) {
   if (!fs::is_directory(folder)) throw std::runtime_error(folder.string() + ": no such recording folder");
   Recording recording;
-  recording.camera = read_camera_file(require_file(folder / "camera.json"));
-  const fs::path frames_file = require_file(folder / "frames.jsonl");
+  recording.camera = read_camera_file(require_file(folder / kCameraFile));
+  const fs::path frames_file = require_file(folder / kFramesFile);
   std::ifstream frames(frames_file, std::ios::binary);
   if (!frames) throw std::runtime_error(frames_file.string() + ": cannot be opened");
   recording.frames = read_frames(frames, frames_file.string(), bad_lines, recording.skipped_lines);
-  recording.telemetry = read_tlog(require_file(folder / "telemetry.tlog"));
-  if (fs::exists(folder / "config.json")) recording.config_json = read_text_file(folder / "config.json");
-  if (fs::exists(folder / "class_names.json"))
-    recording.class_names = read_class_names(folder / "class_names.json");
-  if (fs::exists(folder / "counts.json")) recording.frames_damaged = read_damaged(folder / "counts.json");
-  if (fs::exists(folder / "truth.geojson")) recording.truth = read_truth(folder / "truth.geojson");
+  recording.telemetry = read_tlog(require_file(folder / kTelemetryFile));
+  if (fs::exists(folder / kConfigFile)) recording.config_json = read_text_file(folder / kConfigFile);
+  if (fs::exists(folder / kClassNamesFile))
+    recording.class_names = read_class_names(folder / kClassNamesFile);
+  if (fs::exists(folder / kCountsFile)) recording.frames_damaged = read_damaged(folder / kCountsFile);
+  if (fs::exists(folder / kTruthFile)) recording.truth = read_truth(folder / kTruthFile);
   return recording;
 }
 

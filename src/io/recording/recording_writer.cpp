@@ -11,6 +11,7 @@
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/detection_fields.hpp"
+#include "geoloc/io/recording/recording_files.hpp"
 #include "geoloc/io/sync.hpp"
 #include "geoloc/io/write_failure.hpp"
 
@@ -44,7 +45,7 @@ bool is_in_use(const fs::path& name) {
 }
 
 bool is_recording(const fs::path& folder) {
-  return fs::exists(folder / "telemetry.tlog") && fs::exists(folder / "frames.jsonl");
+  return fs::exists(folder / kTelemetryFile) && fs::exists(folder / kFramesFile);
 }
 
 /// `flight`, `flight-2`, `flight-3`, …
@@ -92,8 +93,8 @@ RecordingWriter::Place RecordingWriter::make_place(fs::path folder, NameTaken na
 RecordingWriter::RecordingWriter(fs::path folder, NameTaken name_taken)
     : name_taken_(name_taken),
       place_(make_place(std::move(folder), name_taken)),
-      telemetry_(place_.partial / "telemetry.tlog"),
-      frames_(place_.partial / "frames.jsonl") {
+      telemetry_(place_.partial / kTelemetryFile),
+      frames_(place_.partial / kFramesFile) {
   io::sync(place_.partial);
 }
 
@@ -105,24 +106,24 @@ void RecordingWriter::write_extra(const std::string& name, const std::string& co
 }
 
 void RecordingWriter::write_camera(const CameraConfig& camera) {
-  write_extra("camera.json", camera_to_json(camera).dump(2) + "\n");
+  write_extra(kCameraFile, camera_to_json(camera).dump(2) + "\n");
 }
 
 void RecordingWriter::write_config(const std::string& json) {
-  write_extra("config.json", json + "\n");
+  write_extra(kConfigFile, json + "\n");
 }
 
 void RecordingWriter::write_class_names(const std::vector<std::string>& names) {
   const nlohmann::json list(names);
-  write_extra("class_names.json", list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  write_extra(kClassNamesFile, list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 void RecordingWriter::write_truth(const std::vector<TrueTarget>& targets) {
-  write_extra("truth.geojson", truth_to_geojson(targets));
+  write_extra(kTruthFile, truth_to_geojson(targets));
 }
 
 void RecordingWriter::write_damaged(std::uint64_t frames) {
-  write_extra("counts.json", nlohmann::json{{"frames_damaged", frames}}.dump() + "\n");
+  write_extra(kCountsFile, nlohmann::json{{"frames_damaged", frames}}.dump() + "\n");
 }
 
 void RecordingWriter::add_telemetry(HostTime received_at, const std::uint8_t* frame, std::size_t size) {

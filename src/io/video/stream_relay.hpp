@@ -60,7 +60,7 @@ class StreamRelay {
 
   /// More bytes than between any two frames.
   static constexpr std::uint64_t kMostBytesWithoutFrame = 64U << 20U;
-  /// Of one session: the first, and a few redirections.
+  /// A session has so many at most: the first, and a few redirections.
   static constexpr int kMostConnections = 4;
 
  private:

@@ -106,7 +106,7 @@ class Flood {
     return bytes;
   }
 
-  /// Of the right checksum, with any content, and often in the vehicle's name.
+  /// A frame with the right checksum and any content, often in the vehicle's name.
   Bytes forged() {
     constexpr std::array<std::uint32_t, 13> kMessages{0, 2, 24, 30, 31, 33, 76, 77, 111, 132, 173, 193, 230};
     const std::uint32_t id = kMessages[random_() % kMessages.size()];
@@ -167,7 +167,7 @@ class FloodedFlight {
   double grown_mb() const { return resident_mb() - resident_before_mb_; }
   const LinkGuard::Counts& counts() const { return guard_.counts(); }
   LinkStatus status() const { return link_.status(now_); }
-  /// Of the mapped clock.
+  /// Error of the mapped clock.
   double clock_error_s() const {
     const auto mapped = link_.clock().to_vehicle(now_);
     return mapped ? std::abs(seconds(mapped->time_since_epoch() - (now_ - kFloodBegins))) : 1e9;

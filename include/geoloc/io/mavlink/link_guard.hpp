@@ -50,7 +50,7 @@ class LinkGuard {
 
   const Counts& counts() const { return counts_; }
   const std::optional<VehicleSources::Refusal>& last_second_source() const { return sources_.last_refusal(); }
-  /// Of a frame that was not signed as it should be.
+  /// When a frame last came that was not signed as it should be.
   const std::optional<HostTime>& last_refused_signature() const { return last_refused_signature_; }
   /// To be kept over restarts; nullopt where nothing is signed.
   std::optional<SigningStamps> signing_stamps() const;

@@ -14,8 +14,8 @@ namespace geoloc::io {
 
 /// Writes JSON Lines to standard output ("-"), to a pipe, device or socket, or to a file, which is called
 /// FILE.partial until it is complete (FILE.partial-2, … where an earlier run has left one). In a live run, a
-/// power cut costs the last second of a file. After a failed
-/// write nothing more is written, because half a line would spoil the next one.
+/// power cut costs the last second of a file. After a failed write nothing more is written, because half a
+/// line would spoil the next one.
 class JsonLinesSink final : public Sink {
  public:
   JsonLinesSink(std::string target, OldFile old_file, TellUser tell);
@@ -30,7 +30,8 @@ class JsonLinesSink final : public Sink {
   void open();
   void open_partial();
   void write(const std::string& lines);
-  [[noreturn]] void fail(int error);
+  template <typename Step>
+  void attempt(const Step& step);
 
   bool is_file() const { return target_ != "-" && place_.is_file; }
 

@@ -22,7 +22,7 @@ enum class OldFile {
 /// Shows a message to the user.
 using TellUser = std::function<void(const std::string& message)>;
 
-/// keep_beside(), and says so.
+/// Calls keep_beside(), and tells the user what was kept.
 void keep_and_tell(const std::filesystem::path& file, const TellUser& tell);
 
 /// A file that a run writes anew now and then.
