@@ -20,10 +20,10 @@ PATIENCE_S = 100  # how long to wait for what must come; only a slow machine nee
 Result = collections.namedtuple("Result", "status out err")
 
 
-def run(program, *arguments, **options):
+def run(program, *arguments, timeout=PATIENCE_S, **options):
     """Runs a program to its end."""
     done = subprocess.run([BIN / program, *map(str, arguments)], capture_output=True, text=True,
-                          timeout=PATIENCE_S, check=False, **options)
+                          timeout=timeout, check=False, **options)
     return Result(done.returncode, done.stdout, done.stderr)
 
 
@@ -57,6 +57,10 @@ class Live:
     @property
     def process_id(self):
         return self._process.pid
+
+    @property
+    def is_running(self):
+        return self._process.poll() is None
 
     @property
     def lines(self):
@@ -95,7 +99,7 @@ class Live:
         return self
 
     def __exit__(self, *_):
-        if self._process.poll() is None:
+        if self.is_running:
             self._process.kill()
         self.wait()
         self._process.stderr.close()
