@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # scripts/fly.sh BIN_FOLDER OUT_FOLDER [OPTION-OF-GEOLOC_SIM…] -- [OPTION-OF-GEOLOC_APP…]
 # Runs geoloc_sim and geoloc_app together over the loopback. If either ends early, the other is stopped and the reason
-# is shown last.
+# is shown.
 set -euo pipefail
 [ $# -ge 2 ] || { sed -n '3,5s/^# //p' "$0" >&2; exit 2; }
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
@@ -30,18 +30,14 @@ stop_all() {
 trap stop_all EXIT
 trap 'exit 130' INT TERM
 
-# fail PROGRAM STATUS LOG: shows the program's own messages last, where they are read.
+# fail PROGRAM STATUS [LOG]: ends the script. geoloc_app has given its reason on stderr already.
 fail() {
-  local words
   patience_us=1000000
-  sleep 0.1  # for tee
-  words=$(tr '\r' '\n' <"$3" | grep -v '^[[:space:]]*$' | tail -n 5) || true
-  say "$1 ended early, with status $2:"
-  printf '%s\n' "${words:-(it said nothing)}" >&2
+  say "$1 ended early, with status $2${3:+:}"
+  [ -z "${3:-}" ] || grep -v '^[[:space:]]*$' "$3" | tail -n 5 >&2 || echo "(it said nothing)" >&2
   exit 1
 }
 
-say "Flying ${sim_options[*]}"
 "$bin/geoloc_sim" "${sim_options[@]}" --udp "127.0.0.1:$udp_port" --rtsp-port "$rtsp_port" \
   --truth "$out/truth.geojson" 2>"$out/sim.log" &
 sim=$!
@@ -50,7 +46,7 @@ for _ in $(seq 100); do [ -s "$out/truth.geojson" ] && break; kill -0 "$sim" 2>/
 if [ -s "$out/truth.geojson" ]; then
   "$bin/geoloc_app" --udp "127.0.0.1:$udp_port" --rtsp "rtsp://127.0.0.1:$rtsp_port/cam" "${app_options[@]}" \
     --truth "$out/truth.geojson" --out "$out/objects.geojson" --raw "$out/raw.csv" --picture "$out/picture.svg" \
-    --record "$out/recording" --http 0 2> >(tee "$out/app.log" >&2) &
+    --record "$out/recording" &
   app=$!
 fi
 
@@ -58,7 +54,7 @@ status=0 ended=
 wait -n -p ended $sim $app || status=$?
 if [ "$ended" != "$sim" ]; then
   app=
-  fail geoloc_app "$status" "$out/app.log"
+  fail geoloc_app "$status"
 fi
 sim=
 [ "$status" -eq 0 ] && [ -n "$app" ] || fail geoloc_sim "$status" "$out/sim.log"
@@ -66,9 +62,8 @@ sleep 1  # the last frames
 kill -INT "$app" 2>/dev/null || true
 wait "$app" || status=$?
 app=
-[ "$status" -eq 0 ] || fail geoloc_app "$status" "$out/app.log"
+[ "$status" -eq 0 ] || fail geoloc_app "$status"
 
-say "Done: $(tr '\r' '\n' <"$out/app.log" | grep -o 'found [0-9]* / [0-9]*, RMSE.*' | tail -n 1)"
+say "Done"
 printf '%-11s %s\n' objects "$out/objects.geojson" recording "$out/recording" picture "$out/picture.svg" \
   'raw fixes' "$out/raw.csv"
-echo "Again, from the recording: cmake --build build/release --target geoloc_replay && $bin/geoloc_replay $out/recording --out again.geojson"

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-# The packages of Debian 12 and 13, which have the same names, and how the scripts install them. To be
+# The packages of Debian 12 and 13, which have the same names, how the scripts install them, and how they configure a build. To be
 # sourced.
 
 LIBRARY_PACKAGES=(g++ cmake ninja-build libeigen3-dev libgeographiclib-dev libgtest-dev pkg-config)  # tests included
 BUILD_PACKAGES=(
-  g++ make cmake ninja-build pkg-config python3 python3-venv
+  g++ make cmake ninja-build ccache pkg-config python3 python3-venv
   libeigen3-dev libgeographiclib-dev
   nlohmann-json3-dev libcli11-dev libboost-dev libfmt-dev libyaml-cpp-dev zlib1g-dev libgdal-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-dnn-dev
@@ -14,14 +14,14 @@ RUN_PACKAGES=(
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-plugins-ugly
   gstreamer1.0-libav
 )
-TEST_PACKAGES=(git ccache chromium libgtest-dev libbenchmark-dev gdal-bin)
+TEST_PACKAGES=(git chromium libgtest-dev libbenchmark-dev gdal-bin)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-dev)
 OPENVINO_VERSION=2026.4.1  # on PyPI
 
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
 
-# install_packages NAME…: installs missing packages, as root or with sudo. If none is missing, it takes no time and
-# no network.
+# install_packages NAME…: installs missing packages, as root or with sudo, and says how large they are, and how far it is. If none is
+# missing, it takes no time and no network.
 install_packages() {
   local missing=() package
   for package in "$@"; do
@@ -33,10 +33,42 @@ install_packages() {
     command -v sudo >/dev/null || { echo "Needed, as root: apt-get install ${missing[*]}" >&2; return 1; }
     as_root=(sudo)
   fi
-  say "Installing ${#missing[@]} packages"
+  say "Reading the lists of packages"
+  "${as_root[@]}" apt-get update -q >/dev/null
+  local install=(install -y -q --no-install-recommends "${missing[@]}") size count
+  # Nothing is installed where the answer is no, but all is said.
+  size=$(LC_ALL=C "${as_root[@]}" apt-get "${install[@]/-y/--assume-no}" 2>/dev/null | tr '\n' ' ') || true
+  count=$(sed -n 's/.* \([0-9]*\) newly installed.*/\1/p' <<<"$size")
+  size=$(sed -n 's/.*Need to get \(.*\) of archives.* \([0-9.,]* [kMG]B\) of additional disk.*/\1 of download, \2 on disk/p' <<<"$size")
+  say "Installing ${#missing[@]} packages${count:+, $count with what they need}${size:+: $size}"
   mkdir -p "$ROOT/build/apt-tmp"  # some packages' scripts fail if /tmp is a small RAM disk
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q >/dev/null
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive TMPDIR="$ROOT/build/apt-tmp" \
-    apt-get install -y -q --no-install-recommends "${missing[@]}" >"$ROOT/build/apt.log" 2>&1 ||
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive TMPDIR="$ROOT/build/apt-tmp" LC_ALL=C \
+    apt-get "${install[@]}" >"$ROOT/build/apt.log" 2>&1 &
+  watch_installation $! "${count:-0}"
+  wait $! ||
     { tail -n 20 "$ROOT/build/apt.log" >&2; echo "apt-get failed; all of it is in build/apt.log" >&2; return 1; }
+}
+
+# watch_installation PROCESS COUNT: shows how many packages are there, until the process ends.
+watch_installation() {
+  local log=$ROOT/build/apt.log every_s=10 end=$'\n' seconds=0 shown
+  [ ! -t 2 ] || { every_s=1 end=$'\r'; }
+  while sleep 1 && kill -0 "$1" 2>/dev/null; do
+    seconds=$((seconds + 1))
+    [ $((seconds % every_s)) -eq 0 ] || continue
+    shown="fetched $(grep -c '^Get:' "$log"), unpacked $(grep -c '^Unpacking ' "$log"), set up $(grep -c '^Setting up ' "$log") of $2"
+    printf '%s packages%s' "$shown" "$end" >&2
+  done
+  [ "$end" = $'\n' ] || echo >&2
+}
+
+PROGRAMS_ONLY=(-DGEOLOC_BUILD_TESTS=OFF -DGEOLOC_BUILD_EXAMPLES=OFF -DGEOLOC_BUILD_BENCH=OFF)
+
+# configure PRESET [CMAKE-OPTION…]: the same compiler options for all scripts, so that none compiles again what another has.
+configure() {
+  export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # shares compiled files between clones
+  say "Configuring ($1)"
+  # A newer compiler may have new warnings, which must not stop a user: only .ci/run makes them errors.
+  cmake --preset "$1" -DGEOLOC_WARNINGS_AS_ERRORS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 "${@:2}" \
+    >build/configure.log 2>&1 || { cat build/configure.log; return 1; }
 }

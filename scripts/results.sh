@@ -10,10 +10,7 @@ cd "$ROOT"
 mkdir -p build
 source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}"
-if [ ! -f build/release/build.ninja ]; then
-  say "Configuring"
-  cmake --preset demo >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
-fi
+[ -f build/release/build.ninja ] || configure release "${PROGRAMS_ONLY[@]}"
 say "Building"
 cmake --build build/release --target geoloc_eval
 say "Evaluating"

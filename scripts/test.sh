@@ -26,11 +26,7 @@ source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 install_consumers
 [ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers check a build with OpenCV alone
-export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # shares compiled files between clones
-say "Configuring ($preset)"
-# A newer compiler may have new warnings, which must not stop a user who runs the tests: only .ci/run makes them
-# errors.
-cmake --preset "$preset" -DGEOLOC_WARNINGS_AS_ERRORS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 "$@" >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+configure "$preset" "$@"
 say "Building ($preset)"
 cmake --build "build/$preset"
 say "Testing ($preset)"

@@ -26,7 +26,7 @@ IGNORES_ALL = "signal.signal(signal.SIGINT, signal.SIG_IGN)\n" + FLIES_ON
 
 
 class EarlyEnds(AppTest):
-    """A program that dies ends the demo and the other program at once, and its messages are shown last."""
+    """A program that dies ends the demo and the other program at once, and its messages are the last ones."""
 
     def fly(self, simulator=FLIES_ON, app=FLIES_ON):
         binaries = self.folder / "bin"
@@ -41,9 +41,9 @@ class EarlyEnds(AppTest):
     def assert_ended_by(self, program, words, done, ended_at_s):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertLess(ended_at_s - float((self.folder / f"bin/{program}.ended").read_text()), 2.0, done.stderr)
-        tail = done.stderr.splitlines()[-2:]
-        self.assertIn(f"{program} ended early", tail[0])
-        self.assertEqual(tail[1], words)
+        tail = [line for line in done.stderr.splitlines() if f"{program} ended early" in line or line == words]
+        self.assertEqual(len(tail), 2 if words else 1, done.stderr)
+        self.assertEqual(done.stderr.splitlines()[-len(tail):], tail)
         left = subprocess.run(["pgrep", "-f", str(self.folder / "bin")], capture_output=True, text=True, check=False)
         self.assertEqual(left.stdout, "")
 
@@ -52,7 +52,7 @@ class EarlyEnds(AppTest):
                              *self.fly(app="time.sleep(0.5); end('--http: no such thing', 2)"))
 
     def test_the_app_ends_as_if_all_were_well(self):
-        self.assert_ended_by("geoloc_app", "(it said nothing)", *self.fly(app="time.sleep(0.5)"))
+        self.assert_ended_by("geoloc_app", None, *self.fly(app="time.sleep(0.5)"))
 
     def test_the_app_dies_and_the_simulator_cannot_be_interrupted(self):
         self.assert_ended_by("geoloc_app", "gone", *self.fly(simulator=IGNORES_ALL, app="time.sleep(0.5); end('gone', 2)"))
