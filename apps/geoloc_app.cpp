@@ -141,6 +141,7 @@ bool show_table(const io::RunRecord& record, Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_memory_compact();
   leave_last_words("geoloc_app");
   take_write_signals_as_errors();
   CLI::App cli("Finds ground objects in a drone's live video and gives their coordinates.", "geoloc_app");

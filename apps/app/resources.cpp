@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <stdexcept>
@@ -31,6 +34,13 @@ rlim_t raise_open_files() {
 }
 
 }  // namespace
+
+void keep_memory_compact() {
+#ifdef __GLIBC__
+  mallopt(M_ARENA_MAX, 2);
+  mallopt(M_MMAP_THRESHOLD, 256 * 1024);
+#endif
+}
 
 void require_resources() {
   const rlim_t files = raise_open_files();

@@ -117,12 +117,12 @@ class Soak:
     def _check_objects(self):
         again = self._folder / "again.geojson"
         replayed = run("geoloc_replay", self._recording, "--truth", self._truth, "--out", again, timeout=3600)
-        score = replayed.err.splitlines()[-1]
+        score = re.search("found .*RMSE.*", replayed.err)[0]
         print(f"{self.flights} flights: {score}")
         faults = []
         if again.read_bytes() != self._objects.read_bytes():
             faults.append("the replay is not the run")
-        if not re.search(r"found (\d+) / \1, .*extra 0", score):
+        if not re.match(r"found (\d+) / \1, .*extra 0", score):
             faults.append(score)
         return faults
 
