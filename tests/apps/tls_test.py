@@ -172,6 +172,16 @@ class CotOverTls(AppTest):
                 server.close()
                 self.assertEqual(server.events, [])
 
+    def test_a_refusal_is_not_repeated_with_every_attempt(self):
+        with TakServer(self.folder) as server:
+            world = World()
+            config = self.config(ca_file=self.folder / "ca.pem")
+            with world.watch("--config", config, "--cot", server.url, "--out", self.folder / "objects.geojson") as app:
+                self.wait_until(lambda: len(server.faults) >= 3)
+                self.assertEqual(app.interrupt(), 0)
+            [told] = [line for line in app.lines if server.url in line and "EGM96" not in line]
+            self.assertIn("wants a client certificate", told)
+
     def test_files_that_cannot_be_used_are_refused_before_the_flight(self):
         for settings, setting in (({"ca_file": self.folder / "none.pem"}, "cot.tls_ca_file"),
                                   ({"key_file": self.folder / "server.key"}, "cot.tls_key_file"),

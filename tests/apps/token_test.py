@@ -1,14 +1,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The live page that asks for a token: who has none sees nothing, and the token goes nowhere else."""
 import http.client
+import http.server
 import os
 import pty
 import re
+import shutil
 import stat
 import subprocess
+import threading
 import unittest
 
 from support import BIN, PATIENCE_S, AppTest, Live, run
+
+try:
+    from playwright.sync_api import sync_playwright
+except ImportError:
+    sync_playwright = None
+
+CHROMIUM = shutil.which("chromium")
 
 PATHS = "/", "/page.js", "/palette.css", "/events", "/frame", "/settings", "/objects/1", "/nowhere"
 
@@ -25,7 +35,9 @@ def ask(url, path, **headers):
         connection.close()
 
 
-class PageToken(AppTest):
+class Guarded(AppTest):
+    """A replay whose page asks for a token."""
+
     def setUp(self):
         super().setUp()
         self.recording = self.make_recording()
@@ -37,6 +49,10 @@ class PageToken(AppTest):
     def page_of(self, replay):
         replay.wait_for("the page stays at")
         return replay.wait_for(r"^page: (http://127\.0\.0\.1:\d+/)")[1]
+
+
+class PageToken(Guarded):
+    """What programs get."""
 
     def test_a_page_with_a_token_is_for_those_who_have_it(self):
         with self.replay("--http", "0", "--http-token", self.file) as replay:
@@ -127,6 +143,82 @@ class PageToken(AppTest):
         self.assertIn("--http", result.err)
         self.file = self.folder / "nowhere" / "page.token"
         refused("cannot be written", self.file)
+
+
+class OtherSite:
+    """A site with a link, for browsers another one than 127.0.0.1."""
+
+    def __init__(self, link):
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                self.send_response(200)
+                self.send_header("Content-Type", "text/html")
+                self.end_headers()
+                self.wfile.write(f'<a href="{link}">the drone</a>'.encode())
+
+            def log_message(self, *_):
+                pass
+
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self._thread = threading.Thread(target=self._server.serve_forever)
+        self.url = f"http://localhost:{self._server.server_port}/"
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._server.shutdown()
+        self._thread.join()
+        self._server.server_close()
+
+
+@unittest.skipUnless(sync_playwright, "no Playwright: scripts/test.sh installs it")
+@unittest.skipUnless(CHROMIUM, "no Chromium: apt-get install chromium")
+class TokenInBrowser(Guarded):
+    """What an operator does with a link, or with the token itself."""
+
+    def setUp(self):
+        super().setUp()
+        self.playwright = sync_playwright().start()
+        self.addCleanup(self.playwright.stop)
+        self.browser = self.playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        self.addCleanup(self.browser.close)
+
+    def new_page(self):
+        page = self.browser.new_context().new_page()
+        page.set_default_timeout(1000 * PATIENCE_S)
+        return page
+
+    def assert_shows_the_run(self, page, url):
+        page.wait_for_selector("#objects tbody tr")
+        self.assertEqual(page.url, url)
+        self.assertEqual(page.evaluate("document.cookie"), "")
+
+    def test_a_link_or_the_token_opens_the_page(self):
+        with self.replay("--http", "0", "--http-token", self.file) as replay:
+            url = self.page_of(replay)
+            link = url + "?token=" + self.file.read_text().strip()
+            by_link = self.new_page()
+            by_link.goto(link)
+            self.assert_shows_the_run(by_link, url)
+            by_link.reload()
+            self.assert_shows_the_run(by_link, url)
+
+            by_form = self.new_page()
+            by_form.goto(url)
+            for token, proof in ("wrong", "text=That is not the token"), (self.file.read_text().strip(), "#objects tbody tr"):
+                by_form.fill("input[name=token]", token)
+                by_form.click("button")
+                by_form.wait_for_selector(proof)
+            self.assert_shows_the_run(by_form, url)
+
+            with OtherSite(link) as other:
+                from_elsewhere = self.new_page()
+                from_elsewhere.goto(other.url)
+                from_elsewhere.click("a")
+                self.assert_shows_the_run(from_elsewhere, url)
+            self.assertEqual(replay.interrupt(), 0)
 
 
 if __name__ == "__main__":
