@@ -189,6 +189,9 @@ class CotOverTls(AppTest):
             with self.subTest(setting):
                 self.assert_refused(run("geoloc_app", *World().inputs(), "--config", self.proving(**settings), "--cot",
                                         "tls://127.0.0.1:1"), setting)
+        key = self.folder / "client.key"
+        self.assert_refused(run("geoloc_app", *World().inputs(), "--config", self.proving(), "--out", key), key,
+                            "input of this run", "cot.tls_key_file")
 
     def test_a_server_that_stalls_in_the_handshake_holds_nothing_up(self):
         self.recording, self.objects = self.make_recording(), self.folder / "objects.geojson"

@@ -39,6 +39,15 @@ ClientAddress client_address(const sockaddr_storage& peer) {
   return {};
 }
 
+ClientAddress behind_proxy(const ClientAddress& proxy, const std::string& stated) {
+  in_addr v4{};
+  in6_addr v6{};
+  if (!proxy.is_this_computer) return proxy;
+  if (inet_pton(AF_INET, stated.c_str(), &v4) == 1) return from_v4(v4);
+  if (inet_pton(AF_INET6, stated.c_str(), &v6) == 1) return from_v6(v6);
+  return proxy;
+}
+
 ClientAddress client_address(int descriptor) {
   sockaddr_storage peer{};
   socklen_t size = sizeof peer;

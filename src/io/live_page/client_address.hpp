@@ -18,6 +18,9 @@ struct ClientAddress {
 /// Empty and another computer for what is no address of the internet.
 ClientAddress client_address(const sockaddr_storage& peer);
 
+/// The client of a proxy: the address that it states, if it is a proxy of this computer and that is one.
+ClientAddress behind_proxy(const ClientAddress& proxy, const std::string& stated);
+
 /// That of a connected socket.
 ClientAddress client_address(int descriptor);
 

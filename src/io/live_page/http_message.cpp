@@ -34,6 +34,13 @@ bool is_forwarded(const Request& request) {
          has("X-Real-IP");
 }
 
+/// The proxy that is nearest to us adds to the end; what stands before, its client may have made up.
+std::string forwarded_for(const Request& request) {
+  const std::string addresses = header(request, "X-Forwarded-For");
+  const std::size_t begin = addresses.find_last_of(", ");
+  return begin == std::string::npos ? addresses : addresses.substr(begin + 1);
+}
+
 /// What follows the first question mark, up to a fragment.
 std::string query_of(const std::string& target) {
   const std::size_t mark = target.find_first_of("?#");
@@ -59,6 +66,7 @@ std::variant<PageRequest, Refusal> judged(const Request& request) {
   parts.authorization = header(request, http::field::authorization);
   parts.origin = header(request, http::field::origin);
   parts.is_forwarded = is_forwarded(request);
+  parts.forwarded_for = forwarded_for(request);
   parts.is_over_tls = header(request, "X-Forwarded-Proto") == "https";
   return parts;
 }

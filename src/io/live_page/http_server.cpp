@@ -152,7 +152,7 @@ void HttpServer::Implementation::talk(ClientSocket& socket, int descriptor) {
   }
   const ClientAddress client = client_address(descriptor);
   auto& parts = std::get<PageRequest>(*request);
-  parts.client_network = client.network;
+  parts.client_network = behind_proxy(client, parts.forwarded_for).network;
   parts.is_from_this_computer = client.is_this_computer;
   answer(socket, parts);
 }

@@ -114,6 +114,7 @@ void trust(SSL_CTX* context, const CotConfig& config, const std::string& passwor
   }
   const std::string text = read(named);
   X509_STORE* const store = SSL_CTX_get_cert_store(context);
+  X509_STORE_set_flags(store, X509_V_FLAG_PARTIAL_CHAIN);  // TAK's trust stores may lack the root
   int count = 0;
   if (is_pem(text)) {
     const Bytes bytes = bytes_of(text);

@@ -13,8 +13,8 @@
 namespace geoloc::io {
 namespace {
 
-const char* const kWantsCertificate =
-    "the server wants a client certificate: cot.tls_client_file names the file of one";
+constexpr const char* kIfItWantsCertificate =
+    "; if it wants a client certificate, cot.tls_client_file names the file of one";
 
 bool is_internet_address(const std::string& host) {
   std::array<unsigned char, sizeof(in6_addr)> address{};
@@ -63,7 +63,7 @@ std::string protocol_fault(unsigned long error, bool has_client_certificate) {
   const std::string reason = words == nullptr ? "unknown reason" : words;
   switch (ERR_GET_REASON(error)) {
     case SSL_R_TLSV13_ALERT_CERTIFICATE_REQUIRED:
-      return kWantsCertificate;
+      return "the server wants a client certificate: cot.tls_client_file names the file of one";
     case SSL_R_SSLV3_ALERT_HANDSHAKE_FAILURE:
     case SSL_R_SSLV3_ALERT_BAD_CERTIFICATE:
     case SSL_R_SSLV3_ALERT_CERTIFICATE_EXPIRED:
@@ -72,7 +72,7 @@ std::string protocol_fault(unsigned long error, bool has_client_certificate) {
     case SSL_R_TLSV1_ALERT_UNKNOWN_CA:
     case SSL_R_TLSV1_ALERT_ACCESS_DENIED:
       return has_client_certificate ? "the server refuses our certificate (cot.tls_client_file): " + reason
-                                    : kWantsCertificate;
+                                    : "the server refuses us: " + reason + kIfItWantsCertificate;
     case SSL_R_WRONG_VERSION_NUMBER:
     case SSL_R_HTTP_REQUEST:
     case SSL_R_PACKET_LENGTH_TOO_LONG:
@@ -158,7 +158,7 @@ std::string TlsSession::take_outgoing() {
 std::string TlsSession::fault_of_silent_end() const {
   const std::string fault = "the server closed the connection";
   if (has_client_certificate_) return fault;
-  return fault + "; if it wants a client certificate, cot.tls_client_file names the file of one";
+  return fault + kIfItWantsCertificate;
 }
 
 }  // namespace geoloc::io

@@ -85,6 +85,8 @@ TEST(RequestHead, HasWhatSaysWhoAsks) {
   EXPECT_EQ(full.origin, "http://localhost");
   for (const char* const name : {"Forwarded", "Via", "X-Forwarded-For", "X-Real-IP", "x-forwarded-proto"})
     EXPECT_TRUE(request_with(std::string(name) + ": x\r\n").is_forwarded) << name;
+  for (const char* const stated : {"10.0.0.1", "10.0.0.9, 10.0.0.1", "unknown,10.0.0.1"})
+    EXPECT_EQ(request_with("X-Forwarded-For: " + std::string(stated) + "\r\n").forwarded_for, "10.0.0.1");
   EXPECT_TRUE(request_with("X-Forwarded-Proto: https\r\n").is_over_tls);
 }
 

@@ -223,5 +223,13 @@ TEST(ClientAddress, IsOneForAllAddressesThatOneComputerCanHave) {
   EXPECT_NE(of("10.0.0.1").network, of("10.0.0.2").network);
 }
 
+TEST(ClientAddress, OfAProxysClientIsWhatAProxyOfThisComputerStates) {
+  EXPECT_EQ(behind_proxy(of("127.0.0.1"), "192.168.4.7").network, "192.168.4.7");
+  EXPECT_EQ(behind_proxy(of("::1"), "2001:db8::1").network, of("2001:db8::2").network);
+  for (const char* const nonsense : {"", "somebody", "192.168.4.7:80", "192.168.4.7\n"})
+    EXPECT_EQ(behind_proxy(of("127.0.0.1"), nonsense).network, "127.0.0.1") << nonsense;
+  EXPECT_EQ(behind_proxy(of("192.168.4.9"), "192.168.4.7").network, "192.168.4.9");
+}
+
 }  // namespace
 }  // namespace geoloc::io

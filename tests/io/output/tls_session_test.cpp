@@ -154,6 +154,14 @@ TEST_F(Tls, AServerOfNoTrustedAuthorityIsRefused) {
   expect_named(fault_with(MemoryServer(server_certificate)), {"not from a trusted authority"});
 }
 
+TEST_F(Tls, AnAuthorityIsTrustedWithoutTheOneAboveIt) {
+  const TestCertificate between = issued({"an authority below", "", -3600, 3600, true});
+  const TestCertificate below = issued({"tak.test", "DNS:tak.test"}, between);
+  config.tls_ca_file = put("between.pem", testing::certificate_pem(between));
+  EXPECT_EQ(fault_with(MemoryServer(below)), "");
+  expect_named(fault_with(MemoryServer(server_certificate)), {"not from a trusted authority"});
+}
+
 TEST_F(Tls, ACertificateOfAnotherTimeIsRefused) {
   expect_named(fault_with(MemoryServer(issued({"tak.test", "DNS:tak.test", -7200, -3600}))), {"has expired"});
   expect_named(fault_with(MemoryServer(issued({"tak.test", "DNS:tak.test", 3600, 7200}))),

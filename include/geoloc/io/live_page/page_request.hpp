@@ -22,6 +22,7 @@ struct PageRequest {
   std::string authorization = {};
   std::string origin = {};
   bool is_forwarded = false;        ///< a proxy says that it passes the request on
+  std::string forwarded_for = {};   ///< for whom: the last of header X-Forwarded-For
   bool is_over_tls = false;         ///< and that its client speaks TLS
   std::string client_network = {};  ///< who sends it, as ClientAddress has it
   bool is_from_this_computer = false;
