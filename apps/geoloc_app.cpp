@@ -127,6 +127,7 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
     program.outputs.post_run(program.record());
   }
   program.session.note_damaged(worker.stats().damaged);
+  if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
 }
 
 /// False where stdout does not take it.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,7 @@ inline void ask_for_pages(const std::string& bytes) {
   request.query = word(bytes, 6);
   request.cookie = word(bytes, 7);
   request.authorization = word(bytes, 8);
+  std::replace(request.authorization.begin(), request.authorization.end(), '_', ' ');
   request.origin = word(bytes, 9);
   request.client_network = request.origin;
   ask_with_token(guarded, request, token);
