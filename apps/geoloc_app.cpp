@@ -54,7 +54,7 @@ struct Program {
                 }),
         outputs(inputs.detector->class_names(), {}) {
     add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
-    page = open_live_page(given.outputs.http, inputs.config.estimation.live_page, {source(), true},
+    page = open_live_page(given.outputs, inputs.config.estimation.live_page, {source(), true},
                           inputs.detector->class_names(), outputs);
     recorder.emplace(given.record_folder, [this](io::RecordingWriter& writer) { write_settings(writer); });
   }
@@ -127,6 +127,7 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
     program.outputs.post_run(program.record());
   }
   program.session.note_damaged(worker.stats().damaged);
+  if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
 }
 
 /// False where stdout does not take it.
@@ -175,7 +176,7 @@ int main(int argc, char** argv) {
   if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->inputs.signing_store && !program->inputs.signing_store->remark().empty())
     console.say(program->inputs.signing_store->remark());
-  if (program->page) console.say(page_message(*program->page));
+  if (program->page) console.say(page_message(*program->page, options.outputs, isatty(STDERR_FILENO) != 0));
   run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
 

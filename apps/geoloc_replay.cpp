@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Replays a recording: the same objects, the same bytes, every time.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
@@ -80,8 +82,8 @@ EstimationConfig choose_config(const Options& options, const io::Recording* reco
 
 /// Every file that a replay reads.
 NamedFiles inputs_of(const Options& options) {
-  NamedFiles files =
-      joined({files_of_config(options.config_file), files_of(options.priors), files_of(options.ground)});
+  NamedFiles files = joined({files_of_config(options.config_file), files_of(options.priors),
+                             files_of(options.ground), inputs_of(options.outputs)});
   if (!options.recording.empty()) files = joined({files, files_of_recording(options.recording)});
   add_named(files, "--truth", options.truth_file);
   return files;
@@ -117,7 +119,7 @@ struct Program {
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
     session.note_damaged(recording.frames_damaged);
     add_sinks(options.outputs, config, io::OldFile::kReplace, outputs);
-    page = open_live_page(options.outputs.http, config.live_page, {options.recording, false},
+    page = open_live_page(options.outputs, config.live_page, {options.recording, false},
                           recording.class_names, outputs);
   }
 
@@ -192,7 +194,9 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   if (program->recording.skipped_lines > 0)
     std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", program->recording.skipped_lines);
-  if (program->page) std::fprintf(stderr, "%s\n", page_message(*program->page).c_str());
+  const bool is_terminal = isatty(STDERR_FILENO) != 0;
+  if (program->page)
+    std::fprintf(stderr, "%s\n", page_message(*program->page, options.outputs, is_terminal).c_str());
   replay_all(*program, stop);
   for (const std::string& line : program->session.take_news())
     std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());

@@ -26,7 +26,7 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
 
 NamedFiles inputs_of(const LiveOptions& options) {
   NamedFiles files = joined({files_of_config(options.config_file), files_of(options.detector),
-                             files_of(options.priors), files_of(options.ground)});
+                             files_of(options.priors), files_of(options.ground), inputs_of(options.outputs)});
   add_named(files, "--video", options.video_file);
   add_named(files, "--truth", options.truth_file);
   return files;

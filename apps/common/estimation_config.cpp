@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/estimation_config.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "common/estimation_fields.hpp"
@@ -32,8 +33,14 @@ NamedFiles files_of_config(const std::string& file) {
   if (file.empty()) return {};
   NamedFiles files{{"--config", file}};
   const nlohmann::json document = read_config_document(file);
-  if (document.is_object() && document.contains("camera") && document["camera"].is_string())
-    add_named(files, "camera in --config", document["camera"].get<std::string>());
+  for (const std::string setting : {"camera", "mavlink.signing_key_file", "cot.tls_ca_file",
+                                    "cot.tls_client_file", "cot.tls_key_file", "cot.tls_password_file"}) {
+    std::string path = "/" + setting;
+    std::replace(path.begin(), path.end(), '.', '/');
+    const nlohmann::json::json_pointer place(path);
+    if (document.contains(place) && document[place].is_string())
+      add_named(files, setting + " in --config", document[place].get<std::string>());
+  }
   return files;
 }
 

@@ -37,7 +37,8 @@ void estimation_from_json(const nlohmann::json& document, const std::vector<std:
 /// fault.
 nlohmann::json read_config_document(const std::string& file);
 
-/// A configuration file, if one is given, and the calibration that it names, as inputs for check_outputs().
+/// A configuration file, if one is given, and the calibration, keys and certificates that it names, as inputs
+/// for check_outputs().
 NamedFiles files_of_config(const std::string& file);
 
 /// Throws std::runtime_error that lists all problems of `file` unless there are none.

@@ -3,15 +3,44 @@
 
 #include <stdexcept>
 
-namespace geoloc::apps {
+#include "geoloc/io/live_page/page_token.hpp"
 
-std::shared_ptr<io::LivePage> open_live_page(const std::string& endpoint, const io::LivePageConfig& config,
+namespace geoloc::apps {
+namespace {
+
+std::string token_of(const std::string& file) {
+  if (file.empty()) return {};
+  try {
+    return io::read_or_make_page_token(file);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("--http-token ") + error.what());
+  }
+}
+
+std::string warning_of(const OutputOptions& options) {
+  if (!options.http_token.empty())
+    return "\nThe page is open to the network, for those who have the token, and not encrypted: who can "
+           "listen "
+           "to the network can see it. docs/live_page.md says how to encrypt it";
+  return "\nWARNING: --http serves the page, with the video and all coordinates, to EVERYONE who reaches "
+         "this "
+         "computer by network, without a password. To show it to those alone to whom you give a link, add "
+         "--http-token FILE. To keep it to yourself, give --http PORT alone, and from another computer open "
+         "a "
+         "tunnel: ssh -L PORT:127.0.0.1:PORT THIS-COMPUTER";
+}
+
+}  // namespace
+
+std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const io::LivePageConfig& config,
                                              const io::LivePageTitle& title,
                                              const std::vector<std::string>& class_names, Outputs& outputs) {
-  if (endpoint.empty()) return nullptr;
+  if (options.http.empty()) return nullptr;
+  const std::string token = token_of(options.http_token);
   std::shared_ptr<io::LivePage> page;
   try {
-    page = std::make_shared<io::LivePage>(io::parse_http_endpoint(endpoint), config, title, class_names);
+    page = std::make_shared<io::LivePage>(io::parse_http_endpoint(options.http), config, title, class_names,
+                                          token);
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("--http: ") + error.what());
   }
@@ -19,14 +48,13 @@ std::shared_ptr<io::LivePage> open_live_page(const std::string& endpoint, const 
   return page;
 }
 
-std::string page_message(const io::LivePage& page) {
-  const std::string where = "page: " + page.url();
-  if (!page.is_open_to_network()) return where;
-  return where +
-         "\nWARNING: --http serves the page, with the video and all coordinates, to EVERYONE who reaches "
-         "this "
-         "computer by network, without a password. To keep it to yourself, give --http PORT alone, and from "
-         "another computer open a tunnel: ssh -L PORT:127.0.0.1:PORT THIS-COMPUTER";
+std::string page_message(const io::LivePage& page, const OutputOptions& options, bool is_terminal) {
+  std::string where = "page: " + page.url();
+  if (!options.http_token.empty()) {
+    where += is_terminal ? "?token=" + page.token() + " (the token is in " : " (asks for the token in ";
+    where += options.http_token + ")";
+  }
+  return page.is_open_to_network() ? where + warning_of(options) : where;
 }
 
 }  // namespace geoloc::apps

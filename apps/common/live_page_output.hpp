@@ -5,18 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "common/output_options.hpp"
 #include "common/outputs.hpp"
 #include "geoloc/io/live_page/live_page.hpp"
 
 namespace geoloc::apps {
 
-/// Opens the page of --http and adds it to the outputs; nullptr where `endpoint` is empty. It is served as
-/// long as it is held. Throws std::exception saying what is wrong with the endpoint.
-std::shared_ptr<io::LivePage> open_live_page(const std::string& endpoint, const io::LivePageConfig& config,
+/// Opens the page of --http, with the token of --http-token, and adds it to the outputs; nullptr where none
+/// is wanted. It is served as long as it is held. Throws std::exception saying what is wrong with the
+/// endpoint or the token's file.
+std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const io::LivePageConfig& config,
                                              const io::LivePageTitle& title,
                                              const std::vector<std::string>& class_names, Outputs& outputs);
 
-/// Where the page is, and who else can see it, for the user.
-std::string page_message(const io::LivePage& page);
+/// Where the page is, and who else can see it, for the user. The token is shown to a terminal, for its reader
+/// to open the page, but kept out of logs.
+std::string page_message(const io::LivePage& page, const OutputOptions& options, bool is_terminal);
 
 }  // namespace geoloc::apps

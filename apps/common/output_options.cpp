@@ -38,14 +38,20 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
   };
   add_several("--jsonl", options.jsonl, "Frames and objects as they come, JSON Lines; - is stdout", "FILE");
   add_several("--cot", options.cot,
-              "Confirmed objects to TAK: udp://HOST:PORT or tcp://HOST:PORT; ATAK: udp://239.2.3.1:6969",
+              "Confirmed objects to TAK: udp://HOST:PORT, tcp://HOST:PORT or tls://HOST:PORT; ATAK: "
+              "udp://239.2.3.1:6969",
               "URL");
   add("--raw", options.raw, "Every located detection, CSV");
   add("--picture", options.picture, "Map of the run, SVG");
+  CLI::Option* const http = program.add_option(
+      "--http", options.http,
+      "A page that shows the run, for browsers: PORT for those of this computer, or HOST:PORT");
+  http->type_name("[HOST:]PORT")->group("Outputs");
   program
-      .add_option("--http", options.http,
-                  "A page that shows the run, for browsers: PORT for those of this computer, or HOST:PORT")
-      ->type_name("[HOST:]PORT")
+      .add_option("--http-token", options.http_token,
+                  "The page asks for the token in this file, which is made where it is not there")
+      ->type_name("FILE")
+      ->needs(http)
       ->group("Outputs");
 }
 
@@ -59,6 +65,12 @@ NamedFiles files_of(const OutputOptions& options) {
   for (const std::string& target : options.jsonl) {
     if (target != "-") add_named(files, "--jsonl", target);
   }
+  return files;
+}
+
+NamedFiles inputs_of(const OutputOptions& options) {
+  NamedFiles files;
+  add_named(files, "--http-token", options.http_token);
   return files;
 }
 

@@ -17,20 +17,24 @@ struct OutputOptions {
   std::string raw;                 ///< CSV of every located detection
   std::string picture;             ///< SVG
   std::string http;                ///< [HOST:]PORT of the live page
+  std::string http_token;          ///< file of the token that the live page asks for; empty: it asks for none
   std::string csv;                 ///< of the objects
   std::string kml;                 ///< of the run
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output
-  std::vector<std::string> cot;    ///< endpoints: udp://HOST:PORT, tcp://HOST:PORT
+  std::vector<std::string> cot;    ///< endpoints: {udp,tcp,tls}://HOST:PORT
 
   /// Whether the objects go to standard output as a table: no file holds them, and the output is free.
   bool wants_table() const;
 };
 
-/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http.
+/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http, --http-token.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
 /// Those of them that are files, for check_outputs().
 NamedFiles files_of(const OutputOptions& options);
+
+/// The file that they read, as an input for check_outputs().
+NamedFiles inputs_of(const OutputOptions& options);
 
 /// A sink for each, but for the live page (open_live_page()). `old_files`: of the names that are in use.
 /// Throws std::invalid_argument for a target that is none.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -21,12 +22,35 @@ inline std::string word(const std::string& text, int number) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find(' ', begin) - begin);
 }
 
+/// A token shows the page only to a request that has it, and no answer gives it away but the cookie.
+inline void ask_with_token(const LiveSite& guarded, const PageRequest& request, const std::string& token) {
+  const bool has_token = request.query.find(token) != std::string::npos ||
+                         request.cookie.find(token) != std::string::npos ||
+                         request.authorization.find(token) != std::string::npos;
+  const PageAnswer answer = guarded.answer(request);
+  if (answer.status == 200 && !has_token) std::abort();
+  if (answer.body.find(token) != std::string::npos) std::abort();
+  for (const auto& [name, value] : answer.headers) {
+    if (value.find_first_of("\r\n") != std::string::npos) std::abort();
+    if (name == "Set-Cookie" && !has_token) std::abort();
+  }
+}
+
 /// Reads bytes as a request, an endpoint and a tile URL. Aborts if an answer breaks its promises.
 inline void ask_for_pages(const std::string& bytes) {
   static const LiveDocument document{{"run", true}};
   static PictureBoard board{{"target"}, std::chrono::milliseconds{100}};
   static const LiveSite site{document, board, {}, {"localhost"}};
-  const PageRequest request{word(bytes, 0), word(bytes, 1), word(bytes, 2), word(bytes, 3), word(bytes, 4)};
+  static const std::string token = "0123456789abcdef";
+  static const LiveSite guarded{document, board, {}, {"localhost"}, token};
+  PageRequest request{word(bytes, 0), word(bytes, 1), word(bytes, 2), word(bytes, 3), word(bytes, 4)};
+  request.query = word(bytes, 6);
+  request.cookie = word(bytes, 7);
+  request.authorization = word(bytes, 8);
+  std::replace(request.authorization.begin(), request.authorization.end(), '_', ' ');
+  request.origin = word(bytes, 9);
+  request.client_network = request.origin;
+  ask_with_token(guarded, request, token);
   const PageAnswer answer = site.answer(request);
   const bool is_ours = is_own_host(request.host, {"localhost"});
   if (answer.status == 200 && !is_ours) std::abort();

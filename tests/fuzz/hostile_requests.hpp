@@ -19,7 +19,8 @@ inline std::string text_of(const ReadRequest& read) {
   if (const Refusal* const refusal = std::get_if<Refusal>(&*read)) return std::to_string(refusal->status);
   const auto& request = std::get<PageRequest>(*read);
   return request.method + '\n' + request.path + '\n' + request.host + '\n' + request.fetch_site + '\n' +
-         request.fetch_mode;
+         request.fetch_mode + '\n' + request.query + '\n' + request.cookie + '\n' + request.authorization +
+         '\n' + request.origin;
 }
 
 /// Reads bytes as an HTTP request, at once and in two pieces. Aborts if the results differ, or if a request
@@ -38,6 +39,7 @@ inline void read_request(std::string_view bytes) {
   if (is_request) {
     if (std::get<PageRequest>(*read).path.find_first_of("\r\n") != std::string::npos) std::abort();
     if (std::get<PageRequest>(*read).host.find_first_of("\r\n") != std::string::npos) std::abort();
+    if (std::get<PageRequest>(*read).cookie.find_first_of("\r\n") != std::string::npos) std::abort();
   }
 }
 

@@ -28,6 +28,26 @@ std::string header(const Request& request, Name name) {
   return found == request.end() ? "" : std::string(found->value());
 }
 
+bool is_forwarded(const Request& request) {
+  const auto has = [&request](const char* name) { return request.find(name) != request.end(); };
+  return has("Forwarded") || has("Via") || has("X-Forwarded-For") || has("X-Forwarded-Proto") ||
+         has("X-Real-IP");
+}
+
+/// The proxy that is nearest to us adds to the end; what stands before, its client may have made up.
+std::string forwarded_for(const Request& request) {
+  const std::string addresses = header(request, "X-Forwarded-For");
+  const std::size_t begin = addresses.find_last_of(", ");
+  return begin == std::string::npos ? addresses : addresses.substr(begin + 1);
+}
+
+/// What follows the first question mark, up to a fragment.
+std::string query_of(const std::string& target) {
+  const std::size_t mark = target.find_first_of("?#");
+  if (mark == std::string::npos || target[mark] == '#') return {};
+  return target.substr(mark + 1, target.find('#', mark) - mark - 1);
+}
+
 std::variant<PageRequest, Refusal> judged(const Request& request) {
   const std::string target(request.target());
   if (target.size() > kLongestTarget) return Refusal{414};
@@ -35,9 +55,20 @@ std::variant<PageRequest, Refusal> judged(const Request& request) {
   for (const auto& field : request) {
     if (field.value().size() > kLongestHeader) return Refusal{400};
   }
-  return PageRequest{std::string(request.method_string()), target.substr(0, target.find_first_of("?#")),
-                     header(request, http::field::host), header(request, "Sec-Fetch-Site"),
-                     header(request, "Sec-Fetch-Mode")};
+  PageRequest parts;
+  parts.method = std::string(request.method_string());
+  parts.path = target.substr(0, target.find_first_of("?#"));
+  parts.query = query_of(target);
+  parts.host = header(request, http::field::host);
+  parts.fetch_site = header(request, "Sec-Fetch-Site");
+  parts.fetch_mode = header(request, "Sec-Fetch-Mode");
+  parts.cookie = header(request, http::field::cookie);
+  parts.authorization = header(request, http::field::authorization);
+  parts.origin = header(request, http::field::origin);
+  parts.is_forwarded = is_forwarded(request);
+  parts.forwarded_for = forwarded_for(request);
+  parts.is_over_tls = header(request, "X-Forwarded-Proto") == "https";
+  return parts;
 }
 
 }  // namespace
@@ -78,6 +109,7 @@ std::string answer_head(const PageAnswer& answer, const Headers& headers,
   head.version(11);
   head.result(static_cast<unsigned>(answer.status));
   for (const auto& [name, value] : headers) head.set(name, value);
+  for (const auto& [name, value] : answer.headers) head.set(name, value);
   head.set(http::field::connection, "close");
   if (!answer.type.empty()) head.set(http::field::content_type, answer.type);
   if (body_size) head.set(http::field::content_length, std::to_string(*body_size));

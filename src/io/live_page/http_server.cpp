@@ -12,6 +12,7 @@
 #include <thread>
 #include <utility>
 
+#include "client_address.hpp"
 #include "client_socket.hpp"
 #include "http_message.hpp"
 #include "listening_socket.hpp"
@@ -141,16 +142,19 @@ void HttpServer::Implementation::serve(int descriptor) {
 }
 
 void HttpServer::Implementation::talk(ClientSocket& socket, int descriptor) {
-  const auto request = [&] {
+  auto request = [&] {
     const OpenHeads::Reading reading(open_heads_, descriptor);
     return read_request(socket, limits_.head_bytes);
   }();
   if (!request) return;
   if (const Refusal* const refusal = std::get_if<Refusal>(&*request)) {
-    send(socket, {refusal->status, "", "", false}, true);
-  } else {
-    answer(socket, std::get<PageRequest>(*request));
+    return send(socket, {refusal->status, "", "", false}, true);
   }
+  const ClientAddress client = client_address(descriptor);
+  auto& parts = std::get<PageRequest>(*request);
+  parts.client_network = behind_proxy(client, parts.forwarded_for).network;
+  parts.is_from_this_computer = client.is_this_computer;
+  answer(socket, parts);
 }
 
 void HttpServer::Implementation::answer(ClientSocket& socket, const PageRequest& request) {

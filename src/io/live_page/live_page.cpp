@@ -47,11 +47,12 @@ class PageStream {
 }  // namespace
 
 LivePage::LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
-                   const std::vector<std::string>& class_names)
+                   const std::vector<std::string>& class_names, const std::string& token)
     : endpoint_(endpoint),
+      token_(token),
       document_(title),
       board_(class_names, std::chrono::milliseconds{std::lround(1e3 * config.picture_period_s)}),
-      site_(document_, board_, config, names_of_this_computer(endpoint.host)) {
+      site_(document_, board_, config, names_of_this_computer(endpoint.host), token) {
   const std::chrono::milliseconds period{std::lround(1e3 * config.update_period_s)};
   server_ = std::make_unique<HttpServer>(
       endpoint, limits_of(config), site_.headers(),

@@ -8,9 +8,11 @@
 #include <array>
 #include <cctype>
 #include <charconv>
+#include <chrono>
 #include <string_view>
 
 #include "geoloc/io/output/palette.hpp"
+#include "page_access.hpp"
 #include "page_files.hpp"
 #include "page_json.hpp"
 
@@ -74,10 +76,12 @@ PageAnswer json(std::string text) {
   return answer;
 }
 
-std::string content_security_policy(const LivePageConfig& config) {
+/// The one form is that which asks for a token.
+std::string content_security_policy(const LivePageConfig& config, bool has_token) {
   const std::string tiles = tile_origin(config.tile_url);
   return "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; img-src 'self' blob:" +
-         (tiles.empty() ? "" : " " + tiles) + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+         (tiles.empty() ? "" : " " + tiles) + "; base-uri 'none'; form-action " +
+         (has_token ? "'self'" : "'none'") + "; frame-ancestors 'none'";
 }
 
 }  // namespace
@@ -108,23 +112,27 @@ std::optional<std::uint64_t> object_of_path(const std::string& path) {
 }
 
 LiveSite::LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
-                   std::vector<std::string> own_names)
+                   std::vector<std::string> own_names, const std::string& token)
     : document_(document),
       board_(board),
       own_names_(std::move(own_names)),
+      access_(std::make_unique<PageAccess>(token)),
       settings_json_(page_json::settings(config)),
-      headers_{{"Content-Security-Policy", content_security_policy(config)},
+      headers_{{"Content-Security-Policy", content_security_policy(config, !token.empty())},
                {"X-Content-Type-Options", "nosniff"},
                {"Referrer-Policy", "no-referrer"},
                {"Cross-Origin-Resource-Policy", "same-origin"},
                {"Cross-Origin-Opener-Policy", "same-origin"},
                {"Cache-Control", "no-store"}} {}
 
+LiveSite::~LiveSite() = default;
+
 PageAnswer LiveSite::answer(const PageRequest& request) const {
   if (!is_own_host(request.host, own_names_))
     return refuse(421, "Use this computer's address: the name in the request is not one of its own.");
-  if (request.method != "GET" && request.method != "HEAD") return refuse(405, "Only GET and HEAD.");
   if (is_on_behalf_of_another_site(request)) return refuse(403, "Not available to pages of other sites.");
+  if (auto instead = access_->answer_instead(request, std::chrono::steady_clock::now())) return *instead;
+  if (request.method != "GET" && request.method != "HEAD") return refuse(405, "Only GET and HEAD.");
   return dispatch(request);
 }
 

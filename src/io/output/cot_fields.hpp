@@ -30,6 +30,17 @@ void visit_fields(Visitor& v, CotConfig& cot) {
           "Networks that a multicast datagram may cross; 1: our own");
   v.field("multicast_interface", cot.multicast_interface, Any{}, "",
           "Network interface of multicast datagrams, by name; empty: the system chooses");
+  v.field("tls_ca_file", cot.tls_ca_file, Any{}, "",
+          "Certificates of the authorities by which TLS servers are trusted, PEM or PKCS#12; empty: those of "
+          "the system");
+  v.field("tls_client_file", cot.tls_client_file, Any{}, "",
+          "Our certificate for TLS servers, with its key, PEM or PKCS#12 (.p12); empty: none");
+  v.field("tls_key_file", cot.tls_key_file, Any{}, "",
+          "Key of our certificate, PEM, where it is in a file of its own");
+  v.field("tls_password_file", cot.tls_password_file, Any{}, "",
+          "File whose first line is the password of the PKCS#12 files or the key; empty: they have none");
+  v.field("tls_server_name", cot.tls_server_name, Any{}, "",
+          "Name for which the server must have its certificate; empty: the host of --cot");
 }
 
 }  // namespace geoloc::io

@@ -12,6 +12,7 @@ namespace geoloc::io {
 namespace {
 
 constexpr auto kPatienceAtTheEnd = std::chrono::milliseconds{2000};
+constexpr auto kFarewell = std::chrono::milliseconds{1000};
 
 HostTime utc_now() {
   return HostTime{std::chrono::system_clock::now().time_since_epoch()};
@@ -52,7 +53,7 @@ void CotSink::on_end() {
   if ((objects_.empty() && told_.empty()) || !connection_.flush(kPatienceAtTheEnd)) return;
   tell_all_again();
   send_due();
-  connection_.flush(kPatienceAtTheEnd);
+  if (connection_.flush(kPatienceAtTheEnd)) connection_.end(kFarewell);
 }
 
 /// What was told on a connection before may have been lost with it; that an object is gone has yet to be.

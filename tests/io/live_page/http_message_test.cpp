@@ -28,6 +28,7 @@ void expect_the_request(const Read& read, const std::string& what) {
   const auto& request = std::get<PageRequest>(*read);
   EXPECT_EQ(request.method, "GET") << what;
   EXPECT_EQ(request.path, "/objects/17") << what;
+  EXPECT_EQ(request.query, "x=1") << what;
   EXPECT_EQ(request.host, "localhost:8080") << what;
   EXPECT_EQ(request.fetch_site, "same-origin") << what;
   EXPECT_EQ(request.fetch_mode, "cors") << what;
@@ -69,6 +70,26 @@ TEST(RequestHead, IsRefusedByWhatIsWrongWithIt) {
   }
 }
 
+TEST(RequestHead, HasWhatSaysWhoAsks) {
+  const auto request_with = [](const std::string& headers) {
+    return std::get<PageRequest>(*read("GET /?token=a&b?c#d HTTP/1.1\r\n" + headers + "\r\n"));
+  };
+  const PageRequest plain = request_with("");
+  EXPECT_EQ(plain.path, "/");
+  EXPECT_EQ(plain.query, "token=a&b?c");
+  EXPECT_FALSE(plain.is_forwarded || plain.is_over_tls || plain.is_from_this_computer);
+  const PageRequest full =
+      request_with("Cookie: a=b; c=d\r\nauthorization: Bearer x\r\nOrigin: http://localhost\r\n");
+  EXPECT_EQ(full.cookie, "a=b; c=d");
+  EXPECT_EQ(full.authorization, "Bearer x");
+  EXPECT_EQ(full.origin, "http://localhost");
+  for (const char* const name : {"Forwarded", "Via", "X-Forwarded-For", "X-Real-IP", "x-forwarded-proto"})
+    EXPECT_TRUE(request_with(std::string(name) + ": x\r\n").is_forwarded) << name;
+  for (const char* const stated : {"10.0.0.1", "10.0.0.9, 10.0.0.1", "unknown,10.0.0.1"})
+    EXPECT_EQ(request_with("X-Forwarded-For: " + std::string(stated) + "\r\n").forwarded_for, "10.0.0.1");
+  EXPECT_TRUE(request_with("X-Forwarded-Proto: https\r\n").is_over_tls);
+}
+
 TEST(RequestHead, IsReadOrRefusedWhateverComes) {
   std::string bytes = kRequest;
   for (std::size_t i = 0; i < 4000; ++i) {
@@ -83,6 +104,8 @@ TEST(AnswerHead, StatesWhatFollows) {
   EXPECT_EQ(answer_head({200, "text/plain", "", false}, headers, 12),
             "HTTP/1.1 200 OK\r\nCache-Control: no-store\r\nConnection: close\r\nContent-Type: text/plain\r\n"
             "Content-Length: 12\r\n\r\n");
+  EXPECT_EQ(answer_head({200, "", "", false, {{"Set-Cookie", "a=b"}}}, {}, 0),
+            "HTTP/1.1 200 OK\r\nSet-Cookie: a=b\r\nConnection: close\r\nContent-Length: 0\r\n\r\n");
   EXPECT_EQ(
       answer_head({503, "", "", false}, {}, 0),
       "HTTP/1.1 503 Service Unavailable\r\nConnection: close\r\nContent-Length: 0\r\nRetry-After: 5\r\n\r\n");

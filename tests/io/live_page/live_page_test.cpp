@@ -102,6 +102,31 @@ TEST_F(Page, HostileRequestsAreRefused) {
   EXPECT_EQ(status_of(ask(port, get_request("/"))), "HTTP/1.1 200 OK");
 }
 
+TEST_F(Page, WithATokenIsForThoseWhoHaveIt) {
+  const std::string token = "0123456789abcdef";
+  page.emplace(HttpEndpoint{"127.0.0.1", 0}, LivePageConfig{}, LivePageTitle{"run", true},
+               std::vector<std::string>{}, token);
+  const std::string url = page->url();
+  const std::string host = url.substr(7, url.size() - 8);
+  port = static_cast<std::uint16_t>(std::stoi(host.substr(host.find(':') + 1)));
+  const auto request = [&host](const std::string& path, const std::string& header) {
+    return "GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n" + header + "\r\n";
+  };
+  for (const char* const path : {"/", "/events", "/frame", "/page.js"}) {
+    EXPECT_EQ(status_of(ask(port, request(path, ""))), "HTTP/1.1 401 Unauthorized") << path;
+    EXPECT_EQ(status_of(ask(port, request(path, "Authorization: Bearer 0123456789abcdee\r\n"))),
+              "HTTP/1.1 401 Unauthorized");
+  }
+  const std::string welcome = ask(port, request("/?token=" + token, ""));
+  const std::size_t begin = welcome.find("Set-Cookie: ") + 12;
+  const std::string cookie = welcome.substr(begin, welcome.find(';', begin) - begin);
+  EXPECT_EQ(status_of(ask(port, request("/page.js", "Cookie: " + cookie + "\r\n"))), "HTTP/1.1 200 OK");
+  for (int i = 0; i < 20; ++i)
+    ask(port, request("/", "Authorization: Bearer wrong" + std::to_string(i) + "\r\n"));
+  EXPECT_EQ(status_of(ask(port, request("/", "Cookie: " + cookie + "\r\n"))),
+            "HTTP/1.1 429 Too Many Requests");
+}
+
 TEST_F(Page, ASmallRequestGetsNoLargeAnswer) {
   open();
   std::string ranges = "Range: bytes=0-";

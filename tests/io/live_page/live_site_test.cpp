@@ -74,6 +74,19 @@ TEST_F(Site, IsNotReadByOtherSitesPages) {
   EXPECT_EQ(site.answer({"GET", "/events", "localhost", "same-origin", "cors"}).status, 200);
 }
 
+TEST_F(Site, WithATokenAsksForItWhateverIsWanted) {
+  const LiveSite guarded(document, board, {}, kOwnNames, "0123456789abcdef");
+  for (const char* const path : {"/", "/page.js", "/events", "/frame", "/settings", "/nowhere"}) {
+    const PageAnswer answer = guarded.answer({"GET", path, "localhost", "", ""});
+    EXPECT_EQ(answer.status, 401) << path;
+    EXPECT_FALSE(answer.is_event_stream) << path;
+  }
+  EXPECT_EQ(guarded.answer({"POST", "/", "localhost", "", ""}).status, 401);
+  EXPECT_FALSE(board.wants_picture());  // nobody is watching
+  EXPECT_EQ(guarded.answer({"GET", "/", "localhost", "", "", "", "geoloc_80=0123456789abcdef"}).status, 200);
+  EXPECT_EQ(guarded.answer({"GET", "/", "evil.example", "", "", "token=0123456789abcdef"}).status, 421);
+}
+
 std::string policy_of(const LiveSite& site) {
   for (const auto& [name, value] : site.headers()) {
     if (name == "Content-Security-Policy") return value;
@@ -84,6 +97,7 @@ std::string policy_of(const LiveSite& site) {
 TEST_F(Site, LetsThePageRunNothingButItself) {
   EXPECT_EQ(policy_of(site).rfind("default-src 'none'; script-src 'self'; style-src 'self';", 0), 0U);
   EXPECT_EQ(policy_of(site).find("unsafe"), std::string::npos);
+  EXPECT_NE(policy_of(site).find("form-action 'none'"), std::string::npos);
   EXPECT_EQ(get("/").body.find("<script>"), std::string::npos);
   LivePageConfig config;
   config.tile_url = "https://tiles.example.org/{z}/{x}/{y}.png";
@@ -106,7 +120,10 @@ TEST_F(Site, GivesTheNewestPictureWithItsBoxes) {
 }
 
 TEST(HostilePages, DamagedRequestsAreAnsweredSafely) {
-  std::string bytes = "GET /objects/17 localhost:8080 cross-site navigate https://a/{z}/{x}/{y}";
+  std::string bytes =
+      "GET /objects/17 localhost:8080 cross-site navigate https://a/{z}/{x}/{y} token=0123456789abcdee "
+      "geoloc_8080=0123456789abcdee "
+      "Bearer_0123456789abcdee http://localhost:8080";
   for (std::size_t i = 0; i < 4000; ++i) {
     bytes[(i * 7919) % bytes.size()] = static_cast<char>(i * 31);
     hostile::ask_for_pages(bytes);

@@ -23,14 +23,16 @@ ObjectReport a_car() {
   return object;
 }
 
-TEST(CotEndpoint, IsUdpOrTcp) {
+TEST(CotEndpoint, IsUdpTcpOrTls) {
   const CotEndpoint atak = parse_cot_endpoint("udp://239.2.3.1:6969");
   EXPECT_EQ(atak.transport, CotTransport::kUdp);
   EXPECT_EQ(atak.host, "239.2.3.1");
   EXPECT_EQ(atak.port, "6969");
   EXPECT_EQ(parse_cot_endpoint("tcp://[::1]:8087").host, "::1");
-  for (const char* text : {"", "udp://", "239.2.3.1:6969", "http://a:1", "udp://a", "udp://a:0",
-                           "udp://a:70000", "udp://:1", "udp://a b:1", "tcp://a:1x", "tcp://::1:80"}) {
+  EXPECT_EQ(parse_cot_endpoint("tls://takserver:8089").transport, CotTransport::kTls);
+  for (const char* text :
+       {"", "udp://", "239.2.3.1:6969", "http://a:1", "udp://a", "udp://a:0", "udp://a:70000", "udp://:1",
+        "udp://a b:1", "tcp://a:1x", "tcp://::1:80", "ssl://a:1", "tls://a", "TLS://a:1"}) {
     EXPECT_THROW(parse_cot_endpoint(text), std::invalid_argument) << text;
   }
 }

@@ -19,10 +19,11 @@ class HttpServer;
 /// the same however many pages are open: pages wait for the run, but the run never waits for a page.
 class LivePage {
  public:
-  /// Listens at once. Throws std::runtime_error that names the endpoint, the reason and the remedy, and
-  /// std::invalid_argument naming every problem of the configuration.
+  /// Listens at once. With a token (is_page_token()) only those who have it get an answer. Throws
+  /// std::runtime_error that names the endpoint, the reason and the remedy, and std::invalid_argument naming
+  /// every problem of the configuration.
   LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
-           const std::vector<std::string>& class_names);
+           const std::vector<std::string>& class_names, const std::string& token = {});
   /// Ends every connection at once.
   ~LivePage();
   LivePage(const LivePage&) = delete;
@@ -39,11 +40,15 @@ class LivePage {
   /// Where a browser on this computer finds it: "http://127.0.0.1:8080/".
   std::string url() const;
 
+  /// What it asks for; empty where it asks for none.
+  const std::string& token() const { return token_; }
+
   /// Whether other computers can reach it.
   bool is_open_to_network() const;
 
  private:
   HttpEndpoint endpoint_;
+  std::string token_;
   LiveDocument document_;
   PictureBoard board_;
   LiveSite site_;

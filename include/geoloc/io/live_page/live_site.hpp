@@ -1,34 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geoloc/io/live_page/live_document.hpp"
 #include "geoloc/io/live_page/live_page_config.hpp"
+#include "geoloc/io/live_page/page_request.hpp"
 #include "geoloc/io/live_page/picture_board.hpp"
 
 namespace geoloc::io {
 
-/// The relevant parts of a request, unchecked.
-struct PageRequest {
-  std::string method;
-  std::string path;        ///< without the query
-  std::string host;        ///< header Host
-  std::string fetch_site;  ///< headers Sec-Fetch-Site and -Mode: the browser's statement on whose behalf it
-                           ///< sends the request
-  std::string fetch_mode;
-};
-
-struct PageAnswer {
-  int status = 200;
-  std::string type = "text/plain; charset=utf-8";
-  std::string body;
-  bool is_event_stream = false;  ///< in place of the body
-};
-
-using Headers = std::vector<std::pair<std::string, std::string>>;
+class PageAccess;
 
 /// Whether a Host header names this computer. A page of another site can make a browser connect here through
 /// a name of that site that resolves to our address (DNS rebinding). It cannot do so through an address or
@@ -44,9 +29,12 @@ std::optional<std::uint64_t> object_of_path(const std::string& path);
 /// The page's addresses: a request in, an answer out, without any input or output of its own. Thread-safe.
 class LiveSite {
  public:
-  /// Document and board must outlive it.
+  /// Document and board must outlive it. With a token, nothing is shown to those who do not have it.
   LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
-           std::vector<std::string> own_names);
+           std::vector<std::string> own_names, const std::string& token = {});
+  ~LiveSite();
+  LiveSite(const LiveSite&) = delete;
+  LiveSite& operator=(const LiveSite&) = delete;
 
   PageAnswer answer(const PageRequest& request) const;
 
@@ -59,6 +47,7 @@ class LiveSite {
   const LiveDocument& document_;
   PictureBoard& board_;
   std::vector<std::string> own_names_;
+  std::unique_ptr<const PageAccess> access_;
   std::string settings_json_;
   Headers headers_;
 };

@@ -18,6 +18,11 @@ struct CotConfig {
   double sigma_height_m = 2.0;     ///< of the ground above sea level
   int multicast_ttl = 1;
   std::string multicast_interface;  ///< by name; empty: the system chooses
+  std::string tls_ca_file;          ///< of the authorities that servers are trusted by; empty: the system's
+  std::string tls_client_file;      ///< of our certificate and its key; empty: none
+  std::string tls_key_file;         ///< of the key, where that file lacks it
+  std::string tls_password_file;    ///< of the password of these files; empty: they have none
+  std::string tls_server_name;      ///< for which the server has its certificate; empty: the host of --cot
 
   /// Every fault, named by its path; empty where the settings can be used.
   std::vector<std::string> problems() const;
