@@ -257,7 +257,7 @@ TEST(FrameFate, OfFramesFarAheadIsNotThatOfOthers) {
   std::vector<FrameFate> fates;
   for (int i = 0; i < 200; ++i) {
     add_telemetry(geolocator, 0.1 * i, 0.1 * i + 0.05);
-    geolocator.add(frame_at(1e9 + 0.1 * i));
+    geolocator.add(frame_at(1e8 + 0.1 * i));
     geolocator.add(frame_at(0.1 * i + 0.05));
     for (const FrameOutcome& outcome : process_all(geolocator)) {
       const bool is_ahead = outcome.captured_at > at_s(1e6);
@@ -307,7 +307,7 @@ TEST(WaitingFramesTogether, AreEachToldOfOnceWhateverComes) {
     Geolocator geolocator{GeolocatorConfig{}};
     std::vector<FrameDetections> frames;
     for (int i = 0; i < 300; ++i)
-      frames.push_back(frame_at(random() % 20 == 0 ? 1e9 * anywhere(random) : anywhere(random)));
+      frames.push_back(frame_at(random() % 20 == 0 ? 1e8 * anywhere(random) : anywhere(random)));
     add_telemetry(geolocator, 0.0, 0.25);  // sets the local frame, which is allocated
     const std::size_t before = testing::allocations();
     std::size_t told = 0;
