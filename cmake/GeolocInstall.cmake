@@ -4,6 +4,7 @@ include(CMakePackageConfigHelpers)
 
 set(_package "${CMAKE_INSTALL_LIBDIR}/cmake/geoloc")
 install(TARGETS geoloc EXPORT geoloc ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(FILES "${PROJECT_SOURCE_DIR}/include/geoloc/geoloc.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/geoloc")
 set(_public_modules calibration camera geometry pipeline projection state tracking)
 foreach(_module IN LISTS _public_modules)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/geoloc/${_module}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/geoloc")

@@ -6,17 +6,25 @@
 
 namespace geoloc {
 
+inline constexpr Range kMountAngle_deg = Range::closed(-360, 360);
+inline constexpr Range kLeverArm_m = Range::closed(-100, 100);
+
+/// Whether it can be a camera's. False for NaN.
+inline bool is_usable(const CameraMount& mount) {
+  return kMountAngle_deg.contains(mount.roll_deg) && kMountAngle_deg.contains(mount.pitch_deg) &&
+         kMountAngle_deg.contains(mount.yaw_deg) && kLeverArm_m.contains(mount.x_m) &&
+         kLeverArm_m.contains(mount.y_m) && kLeverArm_m.contains(mount.z_m);
+}
+
 template <class Visitor>
 void visit_fields(Visitor& v, CameraMount& mount) {
-  constexpr Range kAngle = Range::closed(-360, 360);
-  constexpr Range kLeverArm = Range::closed(-100, 100);
-  v.field("roll_deg", mount.roll_deg, kAngle, "deg", "Roll of the camera in the body, applied last");
-  v.field("pitch_deg", mount.pitch_deg, kAngle, "deg",
+  v.field("roll_deg", mount.roll_deg, kMountAngle_deg, "deg", "Roll of the camera in the body, applied last");
+  v.field("pitch_deg", mount.pitch_deg, kMountAngle_deg, "deg",
           "Pitch; -90 looks straight down, the image's top to the nose");
-  v.field("yaw_deg", mount.yaw_deg, kAngle, "deg", "Yaw, clockwise from the nose, applied first");
-  v.field("x_m", mount.x_m, kLeverArm, "m", "Lever arm forward");
-  v.field("y_m", mount.y_m, kLeverArm, "m", "Lever arm to the right");
-  v.field("z_m", mount.z_m, kLeverArm, "m", "Lever arm down");
+  v.field("yaw_deg", mount.yaw_deg, kMountAngle_deg, "deg", "Yaw, clockwise from the nose, applied first");
+  v.field("x_m", mount.x_m, kLeverArm_m, "m", "Lever arm forward");
+  v.field("y_m", mount.y_m, kLeverArm_m, "m", "Lever arm to the right");
+  v.field("z_m", mount.z_m, kLeverArm_m, "m", "Lever arm down");
 }
 
 inline constexpr Range kImageSize = Range::closed(1, 32768);

@@ -14,11 +14,12 @@ VehicleState turned_round(VehicleState vehicle) {
 
 }  // namespace
 
-Expected<FrameView, NoState> FrameViewer::nominal_view(FrameStamp stamp, double latency_s) const {
+Expected<FrameView, NoState> FrameViewer::nominal_view(const FrameStamp& stamp, double latency_s) const {
   const auto told = state.at(stamp.captured_at - from_seconds(latency_s));
   if (!told) return told.error();
   const VehicleState vehicle = stamp.is_turned ? turned_round(*told) : *told;
-  return FrameView{vehicle, enu_from_camera(vehicle, mount, orientation), stamp.captured_at_host, 0.0,
+  const CameraMount& mounted = stamp.mount ? *stamp.mount : mount;
+  return FrameView{vehicle, enu_from_camera(vehicle, mounted, orientation), stamp.captured_at_host, 0.0,
                    latency_s};
 }
 

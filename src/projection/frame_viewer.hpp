@@ -12,11 +12,11 @@ namespace geoloc {
 /// From where frames were seen, by their stamps and a latency. Refers to what it is made of.
 struct FrameViewer {
   const StateProvider& state;
-  const CameraMount& mount;
+  const CameraMount& mount;  ///< of frames whose stamp has none
   CameraOrientation orientation;
 
   /// The nominal pose, neither turned nor lifted. NoState: why there is none.
-  Expected<FrameView, NoState> nominal_view(FrameStamp stamp, double latency_s) const;
+  Expected<FrameView, NoState> nominal_view(const FrameStamp& stamp, double latency_s) const;
 };
 
 /// How high the camera of a nominal view is reported to be above the ground below the vehicle [m].

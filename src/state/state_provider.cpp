@@ -65,6 +65,13 @@ bool is_finite(const EulerAngles& angles) {
   return std::isfinite(angles.roll_rad) && std::isfinite(angles.pitch_rad) && std::isfinite(angles.yaw_rad);
 }
 
+/// Autopilots tell roll and yaw within a turn, to either side or not, and pitch within a quarter of one.
+bool are_within_a_turn(const EulerAngles& angles) {
+  constexpr double kRounding_rad = 1e-3, kTurn_rad = 2.0 * kPi + kRounding_rad;
+  return std::abs(angles.roll_rad) <= kTurn_rad && std::abs(angles.yaw_rad) <= kTurn_rad &&
+         std::abs(angles.pitch_rad) <= 0.5 * kPi + kRounding_rad;
+}
+
 Eigen::Quaterniond interpolate_attitude(const EulerAngles& before, const EulerAngles& after, double alpha,
                                         AttitudeInterpolation how) {
   if (how == AttitudeInterpolation::kCircular)
@@ -126,6 +133,10 @@ void StateProvider::forget_samples() {
 void StateProvider::add(const AttitudeSample& sample) {
   if (!is_finite(sample.angles)) {
     ++counters_.invalid;
+    return;
+  }
+  if (!are_within_a_turn(sample.angles)) {
+    ++counters_.out_of_range;
     return;
   }
   if (!accept_stamp(sample.time)) return;

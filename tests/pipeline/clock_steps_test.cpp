@@ -47,7 +47,7 @@ TEST_P(CameraClock, ThatStepsMovesNoObjectLosesNoneAndMakesNone) {
   NadirFlight flight(GeolocatorConfig{}, in_gusts);
   for (const FrameDetections& frame : frames_with_step(flight, GetParam())) {
     flight.fly_until(seconds(frame.captured_at.time_since_epoch()) + 3.0);
-    flight.geolocator().process(frame);
+    EXPECT_TRUE(flight.geolocator().process(frame));
   }
   const Geolocator& geolocator = flight.geolocator();
   expect_each_place_once(kPlaces, geolocator.tracks());
@@ -61,7 +61,7 @@ TEST(CameraClock, ThatDoesNotStepIsBelieved) {
   NadirFlight flight(GeolocatorConfig{}, in_gusts);
   for (const FrameDetections& frame : frames_with_step(flight, 0.0)) {
     flight.fly_until(seconds(frame.captured_at.time_since_epoch()));
-    flight.geolocator().process(frame);
+    EXPECT_TRUE(flight.geolocator().process(frame));
   }
   expect_each_place_once(kPlaces, flight.tracks());
   EXPECT_EQ(flight.geolocator().track_counters().latency_changes, 0U);
@@ -76,7 +76,7 @@ TEST(CameraClock, IsBelievedWhereAFrameIsShakenOrEmpty) {
       for (Detection& detection : frame.detections) detection.box.x += 60.0;
     if (time_s > 50.0 && time_s < 51.0) frame.detections.clear();
     flight.fly_until(time_s);
-    flight.geolocator().process(frame);
+    EXPECT_TRUE(flight.geolocator().process(frame));
   }
   expect_each_place_once(kPlaces, flight.tracks());
   EXPECT_EQ(flight.geolocator().track_counters().latency_changes, 0U);
@@ -92,7 +92,7 @@ TEST(CameraClock, ThatStepsCausesNoAllocation) {
   for (auto frame = frames.begin(); frame != frames.end(); ++frame) {
     again.fly_until(seconds(frame->captured_at.time_since_epoch()) + 3.0);
     const std::size_t before = testing::allocations();
-    geolocator.process(*frame);
+    EXPECT_TRUE(geolocator.process(*frame));
     if (frame - frames.begin() >= half) allocations += testing::allocations() - before;
   }
   EXPECT_EQ(allocations, 0U);

@@ -539,7 +539,7 @@ TEST(Geolocator, DoesNotAllocate) {
       frames.push_back({at_s(time_s), testing::host_at_s(time_s), hard_frame(flight, time_s, random)});
     flight.fly_until(15.0);
     const std::size_t before = testing::allocations();
-    for (const FrameDetections& frame : frames) flight.geolocator().process(frame);
+    for (const FrameDetections& frame : frames) EXPECT_TRUE(flight.geolocator().process(frame));
     EXPECT_EQ(testing::allocations(), before) << static_cast<int>(method);
     PositionSample position;
     position.time = at_s(100.0);

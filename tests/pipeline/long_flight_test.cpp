@@ -220,7 +220,7 @@ TEST(LongFlights, AllocateNothing) {
   const std::size_t before = testing::allocations();
   for (const FrameDetections& frame : frames) {
     flight.fly_until(seconds(frame.captured_at.time_since_epoch()));
-    flight.geolocator().process(frame);
+    EXPECT_TRUE(flight.geolocator().process(frame));
   }
   EXPECT_EQ(testing::allocations(), before);
   EXPECT_GE(flight.geolocator().state().steps().segment, 30U);

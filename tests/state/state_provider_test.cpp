@@ -122,6 +122,32 @@ TEST(StateProvider, RefusesWhatIsNoNumberAndNoPlace) {
   EXPECT_EQ(provider.counters().positions, 2U);
 }
 
+TEST(StateProvider, RefusesAndCountsAnglesThatAreDegreesInPlaceOfRadians) {
+  StateProvider provider(StateConfig{});
+  for (const EulerAngles& angles :
+       {EulerAngles{0, 0, 180.0}, EulerAngles{0, 0, -90.0}, EulerAngles{10.0, 0, 0}, EulerAngles{0, 2.0, 0}})
+    provider.add(AttitudeSample{at_s(1), angles});
+  EXPECT_EQ(provider.counters().out_of_range, 4U);
+  EXPECT_EQ(provider.counters().attitudes, 0U);
+  double time_s = 1.0;  // what autopilots send: yaw from -pi to pi, or from 0 to 2 pi; rounded to float
+  for (const float yaw : {-3.14159274F, 3.14159274F, 6.28318548F, 0.0F})
+    provider.add(AttitudeSample{at_s(time_s += 0.1), {3.14159274F, -1.57079637F, yaw}});
+  EXPECT_EQ(provider.counters().out_of_range, 4U);
+  EXPECT_EQ(provider.counters().attitudes, 4U);
+}
+
+TEST(StateProvider, IsSettledWhereBothQuantitiesHaveGoneBeyond) {
+  StateProvider provider(StateConfig{});
+  EXPECT_FALSE(provider.is_settled(at_s(1.0)));
+  for (const double time_s : {0.9, 1.1}) provider.add(position(time_s, 0, 20));
+  provider.add(AttitudeSample{at_s(1.0), {}});
+  EXPECT_FALSE(provider.is_settled(at_s(1.0))) << "the sample of that time may be the last before";
+  EXPECT_TRUE(provider.is_settled(at_s(0.99)));
+  provider.add(AttitudeSample{at_s(1.05), {}});
+  EXPECT_TRUE(provider.is_settled(at_s(1.0)));
+  EXPECT_FALSE(provider.is_settled(at_s(1.07)));
+}
+
 TEST(StateProvider, TurnsNorthWithTheMeridian) {
   // 10 km east of the origin at 60 deg north, true north is 0.155 deg to the left of the frame's north.
   StateProvider provider(StateConfig{});

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
+#include "geoloc/camera/camera.hpp"
 #include "geoloc/geometry/time.hpp"
 
 namespace geoloc {
@@ -43,12 +45,16 @@ inline constexpr double kLargestTimeSigma_s = 60.0;
 
 /// What a detector saw in one frame. An empty list is information too: nothing was seen.
 struct FrameDetections {
-  VehicleTime captured_at;    ///< middle of the exposure, on the autopilot's clock
-  HostTime captured_at_host;  ///< the same instant as UTC, kept for the record (first and last seen)
+  VehicleTime captured_at;  ///< middle of the exposure, on the autopilot's clock
+  /// The same instant as UTC, on a clock that never steps: how long objects were seen for, and whether the
+  /// autopilot's clock steps, is told by it. Where it is left at zero, captured_at stands for it.
+  HostTime captured_at_host;
   std::vector<Detection> detections;
   /// 1-sigma of captured_at, but for what is constant over the flight; 0: not stated, and the configured
   /// constant holds.
   double time_sigma_s = 0.0;
+  /// Of a camera on a gimbal: how it was mounted at captured_at; nullopt: as configured.
+  std::optional<CameraMount> mount = std::nullopt;
 };
 
 }  // namespace geoloc

@@ -10,6 +10,7 @@
 
 #include "geoloc/calibration/calibration.hpp"
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/pipeline/frame_outcome.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 #include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/state/samples.hpp"
@@ -30,10 +31,11 @@ class StateProvider;
 class Geolocator {
  public:
   struct Counters {
-    std::uint64_t frames = 0;              ///< given to process()
-    std::uint64_t frames_located = 0;      ///< that had a vehicle state
-    std::uint64_t frames_unusable = 0;     ///< that will never have one
-    std::uint64_t detections = 0;          ///< in located frames
+    std::uint64_t frames = 0;                                 ///< those that wait are not among them yet
+    std::uint64_t frames_located = 0;                         ///< that had a vehicle state
+    std::uint64_t frames_unusable = 0;                        ///< all others
+    std::array<std::uint64_t, kFrameFates> frames_by_fate{};  ///< by FrameFate
+    std::uint64_t detections = 0;                             ///< in located frames
     std::uint64_t detections_dropped = 0;  ///< beyond max_detections, or with numbers that cannot be
     std::uint64_t ranges = 0;              ///< a rangefinder's readings that were taken in
     std::uint64_t detections_at_edge = 0;  ///< not used: cut by the image's edge, perhaps
@@ -51,6 +53,19 @@ class Geolocator {
   void add(const PositionSample& sample);
   void add(const RangeSample& sample);
 
+  /// A frame waits, at least until there are attitudes and positions from beyond its time; process_next()
+  /// then locates it. Frames may be added in any order while they wait. At most 64 do: beyond, the latest one
+  /// goes, and is returned.
+  std::optional<FrameOutcome> add(const FrameDetections& frame);
+
+  /// Locates the next frame that waits no longer, and refines the objects with it: to be called until it
+  /// returns nullopt, which is that no frame is ready. located() and view() are this frame's then, where it
+  /// could be located. Where a vehicle's state at its time is not known, nothing is guessed: its fate tells
+  /// why.
+  [[nodiscard]] std::optional<FrameOutcome> process_next(FrameWait wait = FrameWait::kForTelemetry);
+
+  std::size_t frames_waiting() const;
+
   /// The vehicle's clock began anew. Needed only where the caller knows before three samples have shown it.
   void on_vehicle_reboot();
 
@@ -58,17 +73,17 @@ class Geolocator {
   /// cannot be told apart in time from those after it.
   void on_vehicle_clock_step();
 
-  /// Whether a frame of that time can be processed now (nullopt), or why not. On NoState::kNotYet it is worth
-  /// waiting.
+  /// Whether process() could locate a frame of that time now (nullopt), or why not. On NoState::kNotYet it is
+  /// worth waiting.
   std::optional<NoState> missing_state(VehicleTime captured_at) const;
 
-  /// Locates a frame's detections and refines the objects with them. Frames in order of their time. False,
-  /// and counted, where the vehicle's state at the capture time is not known: nothing is guessed. The order
-  /// of the detections does not matter.
-  bool process(const FrameDetections& frame);
+  /// In place of add() and process_next(), for callers whose frames wait elsewhere: locates a frame at once.
+  /// Frames in order of their time. False, and counted, where it could not be located.
+  [[nodiscard]] bool process(const FrameDetections& frame);
 
-  /// No more frames come. Frames are held back, for 12 s at most, while a clock may have stepped: the last
-  /// ones are used now. process() may go on afterwards.
+  /// No more frames and telemetry come: frames that wait are processed with what is known. Where a clock may
+  /// have stepped, the objects' estimator holds frames back, too, for 12 s at most: they are used now. The
+  /// flight may go on afterwards.
   void finish();
 
   /// All objects, tentative and confirmed, in order of their ids.

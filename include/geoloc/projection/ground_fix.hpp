@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "geoloc/camera/camera.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/geometry/rigid3.hpp"
 #include "geoloc/state/vehicle_state.hpp"
@@ -53,8 +55,9 @@ struct LocatedDetection {
 struct FrameStamp {
   VehicleTime captured_at;
   HostTime captured_at_host;
-  double time_sigma_s = 0.0;  ///< 1-sigma; 0: not stated
-  bool is_turned = false;     ///< the vehicle's yaw is 180 deg from what it tells
+  double time_sigma_s = 0.0;                        ///< 1-sigma; 0: not stated
+  bool is_turned = false;                           ///< the vehicle's yaw is 180 deg from what it tells
+  std::optional<CameraMount> mount = std::nullopt;  ///< where it is not the configured one
 };
 
 /// From where a frame was seen.

@@ -57,6 +57,9 @@ class StateBuffer {
   /// What is to be known so soon before or after a sample is known well enough, far as the next one may be.
   static constexpr Duration kNear = std::chrono::milliseconds{200};
 
+  /// Whether a sample has come from beyond that time.
+  bool reaches_beyond(VehicleTime time) const { return size_ > 0 && sample(size_ - 1).time > time; }
+
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }
   const Counters& counters() const { return counters_; }

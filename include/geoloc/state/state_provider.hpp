@@ -51,6 +51,7 @@ class StateProvider {
     std::uint64_t duplicates = 0;      ///< same time as a sample before
     std::uint64_t stale = 0;           ///< older than all that is kept, or late where the state steps
     std::uint64_t invalid = 0;         ///< not finite, or no place on Earth
+    std::uint64_t out_of_range = 0;    ///< angles that no attitude has: degrees in place of radians, perhaps
     std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
     std::uint64_t unconfirmed = 0;     ///< at the start, with which the next one did not agree
     std::uint64_t suspect_stamps = 0;  ///< far from the others' times
@@ -69,6 +70,14 @@ class StateProvider {
   void add(const PositionSample& sample);
 
   Expected<VehicleState, NoState> at(VehicleTime time) const;
+
+  /// Whether both quantities have samples from beyond that time: later ones do not change at() any more.
+  bool is_settled(VehicleTime time) const {
+    return positions_.reaches_beyond(time) && attitudes_.reaches_beyond(time);
+  }
+
+  /// Rises where the vehicle's clock begins anew or steps: what times of before meant is not known since.
+  std::uint64_t clock_epoch() const { return counters_.reboots + counters_.clock_steps; }
 
   /// States from now on, also those of earlier times, go on from the one of that time: for as long as nothing
   /// hangs on the ones before, since the newest are more often right.

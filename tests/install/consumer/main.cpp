@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <geoloc/geometry/geodetic.hpp>
-#include <geoloc/pipeline/geolocator.hpp>
+#include <geoloc/geoloc.hpp>
 
 int main() {
   const geoloc::Geolocator geolocator{geoloc::GeolocatorConfig{}};

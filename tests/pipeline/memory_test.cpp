@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What docs/library.md says of memory.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <fstream>
+#include <memory>
+#include <regex>
+#include <string>
+
+#include "geoloc/pipeline/geolocator.hpp"
+
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+
+namespace geoloc {
+namespace {
+
+/// What a Geolocator holds [MB], all of it from construction on. Eigen's matrices are not made by operator
+/// new, so that only the heap itself can tell.
+double heap_mb(Method method, int max_tracks, int max_detections) {
+  GeolocatorConfig config;
+  config.method = method;
+  config.max_detections = max_detections;
+  config.joint.max_tracks = config.paper.max_tracks = max_tracks;
+  const auto in_use = [] {
+    const struct mallinfo2 heap = mallinfo2();
+    return static_cast<double>(heap.uordblks + heap.hblkhd);
+  };
+  const double before = in_use();
+  const auto geolocator = std::make_unique<Geolocator>(config);
+  return 1e-6 * (in_use() - before);
+}
+
+class Memory : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!(heap_mb(Method::kJoint, 1000, 256) > 1.0)) GTEST_SKIP() << "a sanitizer's heap does not tell";
+  }
+};
+
+TEST_F(Memory, FollowsTheMostTracksAndDetections) {
+  const double few = heap_mb(Method::kJoint, 10, 32);
+  const double per_track = (heap_mb(Method::kJoint, 1010, 32) - few) / 1000.0;
+  EXPECT_LT(per_track, 0.035);
+  EXPECT_GT(per_track, 0.02);
+  EXPECT_NEAR(heap_mb(Method::kJoint, 210, 32), few + 200.0 * per_track, 0.5);
+  EXPECT_LT(few, 3.0);
+}
+
+TEST_F(Memory, IsAsTheDocumentationSays) {
+  std::ifstream page(GEOLOC_SOURCE_DIR "/docs/library.md");
+  const std::regex row(R"(\| (joint|paper)(?:, default)? \| (\d+) \| (\d+) \| ([\d.]+) MB \|)");
+  int rows = 0;
+  for (std::string line; std::getline(page, line);) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    const Method method = cells[1] == "joint" ? Method::kJoint : Method::kPaper;
+    const double documented_mb = std::stod(cells[4]);
+    EXPECT_NEAR(heap_mb(method, std::stoi(cells[2]), std::stoi(cells[3])), documented_mb,
+                0.05 * documented_mb + 0.05)
+        << line;
+    ++rows;
+  }
+  EXPECT_EQ(rows, 4);
+}
+
+}  // namespace
+}  // namespace geoloc
+
+#endif
