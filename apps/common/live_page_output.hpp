@@ -10,11 +10,17 @@
 
 namespace geoloc::apps {
 
-/// Opens the page of --http and adds it to the outputs; nullptr where `endpoint` is empty. It is served as
-/// long as it is held. Throws std::exception saying what is wrong with the endpoint.
+/// Opens the page of --http; nullptr where `endpoint` is empty. It is served as long as it is held.
+/// `playback` is that of a replay. Throws std::exception saying what is wrong with the endpoint.
 std::shared_ptr<io::LivePage> open_live_page(const std::string& endpoint, const io::LivePageConfig& config,
                                              const io::LivePageTitle& title,
-                                             const std::vector<std::string>& class_names, Outputs& outputs);
+                                             const std::vector<std::string>& class_names,
+                                             const Outputs& outputs,
+                                             std::shared_ptr<io::ReplayControl> playback = nullptr);
+
+/// For a terminal: a QR code of the page's address, and the address. Empty where the page is not open to the
+/// network, or this computer is in none.
+std::string page_for_telephones(const io::LivePage& page);
 
 /// Where the page is, and who else can see it, for the user.
 std::string page_message(const io::LivePage& page);

@@ -25,11 +25,27 @@ inline std::string word(const std::string& text, int number) {
 inline void ask_for_pages(const std::string& bytes) {
   static const LiveDocument document{{"run", true}};
   static PictureBoard board{{"target"}, std::chrono::milliseconds{100}};
-  static const LiveSite site{document, board, {}, {"localhost"}};
-  const PageRequest request{word(bytes, 0), word(bytes, 1), word(bytes, 2), word(bytes, 3), word(bytes, 4)};
+  static int changes = 0;
+  static const PageActions actions{[](std::uint64_t /*id*/, const ObjectNote& note) {
+                                     ++changes;
+                                     if (note.name.size() > 4 * kLongestNoteName + 3) std::abort();
+                                     return true;
+                                   },
+                                   [](const ReplayWish& wish) {
+                                     ++changes;
+                                     if (wish.speed && !(*wish.speed > 0.0 && *wish.speed < 1e3))
+                                       std::abort();
+                                   }};
+  static const LiveSite site{document, board, {}, {"localhost"}, actions};
+  PageRequest request{word(bytes, 0), word(bytes, 1), word(bytes, 2), word(bytes, 3), word(bytes, 4)};
+  request.query = word(bytes, 6);
+  request.origin = word(bytes, 7);
+  request.is_from_this_computer = word(bytes, 8) == "near";
+  const int before = changes;
   const PageAnswer answer = site.answer(request);
   const bool is_ours = is_own_host(request.host, {"localhost"});
   if (answer.status == 200 && !is_ours) std::abort();
+  if (changes != before && !(is_ours && request.method == "POST" && may_change(request))) std::abort();
   if (answer.status < 200 || answer.status > 499) std::abort();
 
   const std::string origin = tile_origin(word(bytes, 5));  // is put into a header

@@ -35,9 +35,14 @@ std::variant<PageRequest, Refusal> judged(const Request& request) {
   for (const auto& field : request) {
     if (field.value().size() > kLongestHeader) return Refusal{400};
   }
-  return PageRequest{std::string(request.method_string()), target.substr(0, target.find_first_of("?#")),
-                     header(request, http::field::host), header(request, "Sec-Fetch-Site"),
-                     header(request, "Sec-Fetch-Mode")};
+  const std::string address = target.substr(0, target.find('#'));
+  const std::size_t question = address.find('?');
+  PageRequest parts{std::string(request.method_string()), address.substr(0, question),
+                    header(request, http::field::host), header(request, "Sec-Fetch-Site"),
+                    header(request, "Sec-Fetch-Mode")};
+  if (question != std::string::npos) parts.query = address.substr(question + 1);
+  parts.origin = header(request, http::field::origin);
+  return parts;
 }
 
 }  // namespace

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geoloc/io/live_page/live_document.hpp"
 #include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/live_page/picture_board.hpp"
+#include "geoloc/io/live_page/replay_control.hpp"
 
 namespace geoloc::io {
 
@@ -19,6 +23,9 @@ struct PageRequest {
   std::string fetch_site;  ///< headers Sec-Fetch-Site and -Mode: the browser's statement on whose behalf it
                            ///< sends the request
   std::string fetch_mode;
+  std::string query = {};              ///< of the address, after the question mark
+  std::string origin = {};             ///< header Origin
+  bool is_from_this_computer = false;  ///< by the address of the other end
 };
 
 struct PageAnswer {
@@ -41,12 +48,30 @@ std::vector<std::string> names_of_this_computer(const std::string& given_host);
 /// "17" of "/objects/17".
 std::optional<std::uint64_t> object_of_path(const std::string& path);
 
+/// "17" of "/objects/17/note" where `part` is "/note".
+std::optional<std::uint64_t> object_of_path(const std::string& path, std::string_view part);
+
+/// Whether a request may change anything, as notes: one of a page of ours in a browser of this computer, or
+/// of a program on it. The pages of other sites in that browser may not.
+bool may_change(const PageRequest& request);
+
+/// What pages may change, where they may. Functions that are missing are refused.
+struct PageActions {
+  /// False where there is no such object.
+  std::function<bool(std::uint64_t object_id, const ObjectNote& note)> note = {};
+  /// Of a replay.
+  std::function<void(const ReplayWish& wish)> play = {};
+};
+
+class RunFiles;
+
 /// The page's addresses: a request in, an answer out, without any input or output of its own. Thread-safe.
 class LiveSite {
  public:
   /// Document and board must outlive it.
   LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
-           std::vector<std::string> own_names);
+           std::vector<std::string> own_names, PageActions actions = {});
+  ~LiveSite();
 
   PageAnswer answer(const PageRequest& request) const;
 
@@ -55,11 +80,15 @@ class LiveSite {
 
  private:
   PageAnswer dispatch(const PageRequest& request) const;
+  PageAnswer change(const PageRequest& request) const;
+  PageAnswer take_note(const PageRequest& request) const;
 
   const LiveDocument& document_;
   PictureBoard& board_;
   std::vector<std::string> own_names_;
-  std::string settings_json_;
+  LivePageConfig config_;
+  PageActions actions_;
+  std::unique_ptr<RunFiles> files_;
   Headers headers_;
 };
 
