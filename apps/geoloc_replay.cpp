@@ -19,8 +19,8 @@
 #include "common/prior_options.hpp"
 #include "common/run_record.hpp"
 #include "common/stop_signal.hpp"
-#include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
+#include "replay/late_notes.hpp"
 #include "replay/replay_show.hpp"
 
 namespace {
@@ -171,35 +171,6 @@ std::unique_ptr<Program> make_program(const Options& options) {
   return std::make_unique<Program>(options, std::move(*recording), config);
 }
 
-/// Notes that came after the results were written belong in them, too. Whether that failed.
-bool write_again(const Program& program, const io::RunRecord& record) {
-  OutputOptions files;
-  files.objects = program.options.outputs.objects;
-  files.csv = program.options.outputs.csv;
-  files.kml = program.options.outputs.kml;
-  Outputs outputs(program.recording.class_names, {});
-  add_sinks(files, program.config, io::OldFile::kReplace, outputs);
-  io::RunRecord noted = record;
-  program.outputs.notes()->apply(noted.objects);
-  outputs.finish(std::move(noted));
-  for (const std::string& message : outputs.take_messages())
-    std::fprintf(stderr, "geoloc_replay: %s\n", message.c_str());
-  return outputs.has_failed();
-}
-
-/// Keeps in the recording what people said of the objects since the last call. Whether there was anything.
-bool keep_notes(const Program& program) {
-  const auto notes = program.outputs.notes()->take_added();
-  if (notes.empty()) return false;
-  try {
-    io::append_notes(program.options.recording, notes);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "geoloc_replay: notes are in the results, but not in the recording: %s\n",
-                 error.what());
-  }
-  return true;
-}
-
 /// The page stays to be looked at, until Ctrl-C. Whether results could not be written again.
 bool keep_page(Program& program, const io::RunRecord& record, const StopSignal& stop) {
   bool has_failed = false;
@@ -210,7 +181,9 @@ bool keep_page(Program& program, const io::RunRecord& record, const StopSignal& 
   while (!stop.is_requested()) {
     std::this_thread::sleep_for(std::chrono::milliseconds{50});
     program.show->play_again(stop);
-    if (keep_notes(program)) has_failed = write_again(program, record);
+    if (keep_notes(program.options.recording, program.outputs))
+      has_failed = !write_noted_objects(program.options.outputs, program.config,
+                                        program.recording.class_names, program.outputs, record);
   }
   return has_failed;
 }
@@ -237,7 +210,7 @@ int main(int argc, char** argv) {
   if (const auto code = has_reader ? page_for_telephones(*program->page) : ""; !code.empty())
     std::fprintf(stderr, "%s\n", code.c_str());
   program->show->play_to_end(stop);
-  keep_notes(*program);
+  keep_notes(options.recording, program->outputs);
   for (const std::string& line : program->show->session().take_news())
     std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/replay_show.hpp"
 
+#include <chrono>
+
 #include "common/progress_line.hpp"
 #include "common/replay.hpp"
 #include "common/run_record.hpp"
+#include "geoloc/io/output/output_frame.hpp"
 
 namespace geoloc::apps {
 namespace {

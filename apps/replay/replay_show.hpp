@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/outputs.hpp"
-#include "common/periodic.hpp"
 #include "common/replay_pace.hpp"
 #include "common/session.hpp"
 #include "common/stop_signal.hpp"

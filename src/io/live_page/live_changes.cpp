@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What LiveDocument tells pages.
+// What LiveDocument tells pages, and how they wait for it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +10,17 @@
 #include "page_json.hpp"
 
 namespace geoloc::io {
+
+bool LiveDocument::wait(const Cursor& cursor, std::chrono::milliseconds timeout) const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, timeout, [&] { return is_closed_ || revision_ > cursor.revision; });
+  return !is_closed_ && revision_ > cursor.revision;
+}
+
+void LiveDocument::pause_until(std::chrono::steady_clock::time_point time) const {
+  std::unique_lock lock(mutex_);
+  closing_.wait_until(lock, time, [this] { return is_closed_; });
+}
 
 std::string LiveDocument::objects_since(std::uint64_t revision) const {
   std::string json = "[";
@@ -75,6 +86,18 @@ std::optional<std::string> LiveDocument::object(std::uint64_t id) const {
                    std::isfinite(moment.sigma_major_m) ? moment.sigma_major_m : 0.0);
   }
   return page_json::details(entry.report, entry.json, history + "]");
+}
+
+void LiveDocument::close() {
+  const std::lock_guard lock(mutex_);
+  is_closed_ = true;
+  changed_.notify_all();
+  closing_.notify_all();
+}
+
+bool LiveDocument::is_closed() const {
+  const std::lock_guard lock(mutex_);
+  return is_closed_;
 }
 
 }  // namespace geoloc::io

@@ -231,27 +231,4 @@ void LiveDocument::add_fixes(const OutputFrame& frame) {
   }
 }
 
-bool LiveDocument::wait(const Cursor& cursor, std::chrono::milliseconds timeout) const {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, timeout, [&] { return is_closed_ || revision_ > cursor.revision; });
-  return !is_closed_ && revision_ > cursor.revision;
-}
-
-void LiveDocument::pause_until(std::chrono::steady_clock::time_point time) const {
-  std::unique_lock lock(mutex_);
-  closing_.wait_until(lock, time, [this] { return is_closed_; });
-}
-
-void LiveDocument::close() {
-  const std::lock_guard lock(mutex_);
-  is_closed_ = true;
-  changed_.notify_all();
-  closing_.notify_all();
-}
-
-bool LiveDocument::is_closed() const {
-  const std::lock_guard lock(mutex_);
-  return is_closed_;
-}
-
 }  // namespace geoloc::io

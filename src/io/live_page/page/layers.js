@@ -4,6 +4,7 @@ import { roundStep } from "./projection.js";
 
 const FADE_MS = 45000; // a raw fix fades over this time
 const LABEL_HALF_PX = 26;
+const LABEL_TOP_PX = 20;
 const FAINTEST = 0.12;
 const SIGMAS = 2;
 const LEAST_ELLIPSE_PX = 7;
@@ -45,7 +46,7 @@ export function drawGrid(pen) {
   context.textBaseline = "middle";
   for (let value = Math.ceil(south / step) * step; value <= north; value += step) {
     const y = crisp(viewport.toScreen([0, value])[1]);
-    if (y > viewport.height - 50) continue; // the scale bar is there
+    if (y > viewport.height - 50 || y < LABEL_TOP_PX) continue; // the scale bar is there
     line(value, [0, y], [viewport.width, y], [text(value, digits, "N"), 5, y - 9]);
   }
 }
