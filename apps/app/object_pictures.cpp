@@ -11,8 +11,8 @@ namespace geoloc::apps {
 namespace {
 
 constexpr std::size_t kMostPieces = 16;  // of a frame
-constexpr std::size_t kMostFramesWaiting = 128;
-constexpr std::size_t kMostJobs = 64;
+constexpr std::size_t kMostWaiting_bytes = 32 << 20;
+constexpr std::size_t kMostJobs = 8;
 constexpr std::size_t kMostObjects = 2000;
 constexpr double kAround = 2.0;  // of the box's longer side
 constexpr double kLeastSide_px = 48.0;
@@ -90,18 +90,30 @@ void ObjectPictures::offer(const io::VideoFrame& frame, const std::vector<Detect
   }
   if (pieces.empty()) return;
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() >= kMostFramesWaiting) waiting_.pop_front();
   waiting_.push_back({frame.captured_at, std::move(pieces)});
+  waiting_bytes_ += size_bytes(waiting_.back());
+  while (waiting_bytes_ > kMostWaiting_bytes) drop_oldest();
 }
 
 /// The pieces of that frame; those of earlier ones are dropped.
 std::vector<ObjectPictures::Piece> ObjectPictures::take(HostTime captured_at) {
   const std::lock_guard lock(mutex_);
-  while (!waiting_.empty() && waiting_.front().captured_at < captured_at) waiting_.pop_front();
+  while (!waiting_.empty() && waiting_.front().captured_at < captured_at) drop_oldest();
   if (waiting_.empty() || waiting_.front().captured_at != captured_at) return {};
-  std::vector<Piece> pieces = std::move(waiting_.front().pieces);
-  waiting_.pop_front();
+  std::vector<Piece> pieces = waiting_.front().pieces;  // a cv::Mat's copy shares its pixels
+  drop_oldest();
   return pieces;
+}
+
+std::size_t ObjectPictures::size_bytes(const Frame& frame) {
+  std::size_t bytes = sizeof frame;
+  for (const Piece& piece : frame.pieces) bytes += sizeof piece + piece.bgr.total() * piece.bgr.elemSize();
+  return bytes;
+}
+
+void ObjectPictures::drop_oldest() {
+  waiting_bytes_ -= size_bytes(waiting_.front());
+  waiting_.pop_front();
 }
 
 void ObjectPictures::assign(const Geolocator& geolocator, HostTime captured_at) {
@@ -121,6 +133,11 @@ void ObjectPictures::assign(const Geolocator& geolocator, HostTime captured_at) 
     jobs_.push_back({object->id, std::move(piece.bgr)});
     has_job_.notify_one();
   }
+}
+
+std::size_t ObjectPictures::waiting_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return waiting_bytes_;
 }
 
 void ObjectPictures::run() {

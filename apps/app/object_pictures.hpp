@@ -2,6 +2,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -37,6 +38,9 @@ class ObjectPictures {
   /// The same frame after it was located. Called in the estimator's thread.
   void assign(const Geolocator& geolocator, HostTime captured_at);
 
+  /// What waits to be assigned, about.
+  std::size_t waiting_bytes() const;
+
  private:
   struct Piece {
     Box box;
@@ -52,14 +56,17 @@ class ObjectPictures {
     cv::Mat bgr;
   };
 
+  static std::size_t size_bytes(const Frame& frame);
+  void drop_oldest();
   std::vector<Piece> take(HostTime captured_at);
   void run();
 
   OnBetter on_better_;
   std::map<std::uint64_t, double> worth_;  // by object, of its best picture; the estimator's thread's
-  std::mutex mutex_;                       // guards what follows
+  mutable std::mutex mutex_;               // guards what follows
   std::condition_variable has_job_;
   std::deque<Frame> waiting_;
+  std::size_t waiting_bytes_ = 0;
   std::deque<Job> jobs_;
   bool stop_ = false;
   std::thread thread_;  // last: it uses all of the above

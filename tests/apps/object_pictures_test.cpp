@@ -82,6 +82,18 @@ TEST_F(Hover, TheBestPictureOfAnObjectIsTheLastThatIsGiven) {
   EXPECT_EQ(pictures.back().cols, 80);
 }
 
+TEST_F(Hover, FramesThatAreNeverLocatedTakeBoundedMemory) {
+  ObjectPictures pictures([](std::uint64_t /*id*/, const std::string& /*jpeg*/) {});
+  io::VideoFrame video;
+  video.bgr = cv::Mat(1080, 1920, CV_8UC3, cv::Scalar());
+  const std::vector<Detection> large(16, {{100.0, 40.0, 1000.0, 1000.0}, 0.9, 0});
+  for (int number = 0; number < 100; ++number) {  // 5 GB of pieces
+    video.captured_at = HostTime{std::chrono::milliseconds{number}};
+    pictures.offer(video, large);
+  }
+  EXPECT_LT(pictures.waiting_bytes(), 64U << 20);
+}
+
 TEST_F(Hover, AFrameThatWasNotLocatedGivesNone) {
   int given = 0;
   {

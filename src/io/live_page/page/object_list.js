@@ -28,7 +28,10 @@ export class ObjectList {
     const { model } = this;
     this.showClasses();
     const isDismissed = (object) => object.verdict === "dismissed";
-    const all = model.shown().sort((a, b) => isDismissed(a) - isDismissed(b) || b.confirmed - a.confirmed || b.first_seen - a.first_seen || b.id - a.id);
+    // Those that were confirmed while this page looked come first: the difference is NaN where neither was.
+    const confirmedAt = (object) => model.confirmedAt.get(object.id) ?? -Infinity;
+    const all = model.shown().sort((a, b) => isDismissed(a) - isDismissed(b) || b.confirmed - a.confirmed ||
+      confirmedAt(b) - confirmedAt(a) || b.first_seen - a.first_seen || b.id - a.id);
     const total = model.objects.size;
     const confirmed = all.filter((object) => object.confirmed).length;
     this.count.textContent = `${confirmed} confirmed, ${all.length - confirmed} tentative` +

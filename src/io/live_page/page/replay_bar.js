@@ -35,8 +35,8 @@ export class ReplayBar {
     this.bar.hidden = !state;
     if (!state) return;
     this.state = state;
-    for (const control of [this.pause, this.place, this.speed]) control.disabled = !mayChange;
-    this.bar.title = mayChange ? "" : "Only pages on the computer that replays can control it.";
+    this.place.disabled = !mayChange;
+    this.pause.hidden = this.speed.hidden = !mayChange; // the bar tells where the replay is, then
     this.pause.textContent = state.paused ? "▶" : "❚❚";
     this.pause.setAttribute("aria-label", state.paused ? "Play" : "Pause");
     if (document.activeElement !== this.speed) this.showSpeed(state.speed);
