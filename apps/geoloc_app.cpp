@@ -13,6 +13,7 @@
 #include "app/live_options.hpp"
 #include "app/live_run.hpp"
 #include "app/live_status.hpp"
+#include "app/object_pictures.hpp"
 #include "app/page_pictures.hpp"
 #include "app/recorder.hpp"
 #include "app/resources.hpp"
@@ -56,6 +57,7 @@ struct Program {
     add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
     page = open_live_page(given.outputs, inputs.config.estimation.live_page, {source(), true},
                           inputs.detector->class_names(), outputs);
+    if (page) outputs.add(std::make_unique<io::LivePageSink>(page));
     recorder.emplace(given.record_folder, [this](io::RecordingWriter& writer) { write_settings(writer); });
   }
 
@@ -83,6 +85,11 @@ struct Program {
   std::optional<Recorder> recorder;    ///< made last: a run that cannot begin leaves no folder
 };
 
+void record_notes(Program& program) {
+  for (io::NotedObject& noted : program.outputs.notes()->take_added())
+    program.recorder->add_note(std::move(noted));
+}
+
 void tell_all(const std::vector<std::string>& messages, Console& console) {
   for (const std::string& message : messages) console.say("geoloc_app: " + message);
 }
@@ -92,17 +99,21 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
                        const StopSignal& stop) {
   const LiveInputs& inputs = program.inputs;
   std::optional<PagePictures> pictures;
-  DetectionWorker::OnDetected on_detected;
-  if (program.page) {
-    pictures.emplace(program.page, inputs.config.estimation.live_page.picture_width_px);
-    on_detected = [&pictures](const io::VideoFrame& frame, const std::vector<Detection>& detections) {
-      pictures->offer(frame, detections);
-    };
-  }
+  if (program.page) pictures.emplace(program.page, inputs.config.estimation.live_page.picture_width_px);
+  ObjectPictures object_pictures([&program](std::uint64_t id, const std::string& jpeg) {
+    if (program.page) program.page->show_object(id, jpeg);
+    program.recorder->add_picture(id, jpeg);
+  });
+  const bool keeps_pictures = program.page || !program.options.record_folder.empty();
+  const auto on_detected = [&](const io::VideoFrame& frame, const std::vector<Detection>& detections) {
+    if (pictures) pictures->offer(frame, detections);
+    if (keeps_pictures) object_pictures.offer(frame, detections);
+  };
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
   LiveRun run(program.session, *inputs.socket, *inputs.guard, worker, *program.recorder, program.reports,
-              program.clock, [&program](const PendingFrame& frame, bool is_located) {
+              program.clock, [&](const PendingFrame& frame, bool is_located) {
+                if (is_located) object_pictures.assign(program.session.geolocator(), frame.captured_at);
                 program.outputs.post_frame(program.session, frame, is_located);
               });
   const HostTime started_at = program.clock.now();
@@ -112,6 +123,7 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
     run.step();
     const HostTime now = program.clock.now();
     if (status.is_due(now)) {
+      record_notes(program);
       const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run,
                                      damage.observe(now, inputs.video->status()));
       tell_all(library_words.take(), console);
@@ -176,10 +188,14 @@ int main(int argc, char** argv) {
   if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->inputs.signing_store && !program->inputs.signing_store->remark().empty())
     console.say(program->inputs.signing_store->remark());
-  if (program->page) console.say(page_message(*program->page, options.outputs, isatty(STDERR_FILENO) != 0));
+  const bool has_reader = isatty(STDERR_FILENO) == 1;
+  if (program->page) console.say(page_message(*program->page, options.outputs, has_reader));
+  if (const auto code = has_reader && program->page ? page_for_telephones(*program->page) : ""; !code.empty())
+    console.say(code);
   run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
 
+  record_notes(*program);
   program->recorder->finish([damaged = program->session.frames_damaged()](io::RecordingWriter& writer) {
     writer.write_damaged(damaged);
   });

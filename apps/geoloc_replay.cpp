@@ -17,12 +17,11 @@
 #include "common/output_options.hpp"
 #include "common/outputs.hpp"
 #include "common/prior_options.hpp"
-#include "common/progress_line.hpp"
-#include "common/replay.hpp"
-#include "common/replay_pace.hpp"
 #include "common/run_record.hpp"
 #include "common/stop_signal.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
+#include "replay/late_notes.hpp"
+#include "replay/replay_show.hpp"
 
 namespace {
 
@@ -110,17 +109,33 @@ void add_options(CLI::App& program, Options& options) {
 
 /// All that a replay is made of, once its arguments and files have proved usable.
 struct Program {
-  Program(const Options& given, io::Recording its_recording, const EstimationConfig& config)
+  Program(const Options& given, io::Recording its_recording, EstimationConfig its_config)
       : options(given),
+        config(std::move(its_config)),
         recording(std::move(its_recording)),
         truth(given.truth_file.empty() ? recording.truth : io::read_truth(given.truth_file)),
-        session(config),
+        playback(
+            std::make_shared<io::ReplayControl>(begin_of(recording), end_of(recording), speed_of(given))),
         // A replay is faster than its sinks, so it waits for them.
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
-    session.note_damaged(recording.frames_damaged);
+    outputs.notes()->load(recording.notes);
     add_sinks(options.outputs, config, io::OldFile::kReplace, outputs);
     page = open_live_page(options.outputs, config.live_page, {options.recording, false},
-                          recording.class_names, outputs);
+                          recording.class_names, outputs, playback);
+    if (page) {
+      for (const auto& [id, jpeg] : recording.pictures) page->show_object(id, jpeg);
+    }
+    show.emplace(ShowSource{recording, config, truth, options.recording}, outputs, page.get(), *playback);
+  }
+
+  static HostTime begin_of(const io::Recording& recording) {
+    return recording.frames.empty() ? HostTime{} : recording.frames.front().captured_at;
+  }
+  static HostTime end_of(const io::Recording& recording) {
+    return recording.frames.empty() ? HostTime{} : recording.frames.back().captured_at;
+  }
+  static double speed_of(const Options& options) {
+    return options.speed.value_or(options.outputs.http.empty() ? 0.0 : 1.0);
   }
 
   void tell_all() {
@@ -129,11 +144,13 @@ struct Program {
   }
 
   Options options;
+  EstimationConfig config;
   io::Recording recording;
   std::vector<io::TrueTarget> truth;
-  Session session;
+  std::shared_ptr<io::ReplayControl> playback;
   Outputs outputs;
   std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
+  std::optional<ReplayShow> show;
 };
 
 /// The program; empty after --print-config.
@@ -154,27 +171,21 @@ std::unique_ptr<Program> make_program(const Options& options) {
   return std::make_unique<Program>(options, std::move(*recording), config);
 }
 
-void replay_all(Program& program, const StopSignal& stop) {
-  const double speed = program.options.speed.value_or(program.page ? 1.0 : 0.0);
-  const std::size_t frames = program.recording.frames.size();
-  ReplayPace pace(speed);
-  ProgressLine progress("replaying", frames);
-  std::size_t done = 0;
-  replay(program.recording.telemetry, program.recording.frames, program.session,
-         [&](const PendingFrame& frame, bool is_located) {
-           pace.wait_for(frame.captured_at, [&stop] { return stop.is_requested(); });
-           program.outputs.post_frame(program.session, frame, is_located);
-           progress.show(++done);
-           return !stop.is_requested();
-         });
-  progress.finish();
-}
-
-/// The page stays to be looked at, until Ctrl-C.
-void keep_page(const Program& program, const StopSignal& stop) {
-  if (!program.page || stop.is_requested()) return;
-  std::fprintf(stderr, "geoloc_replay: the page stays at %s; Ctrl-C ends it\n", program.page->url().c_str());
-  while (!stop.is_requested()) std::this_thread::sleep_for(std::chrono::milliseconds{50});
+/// The page stays to be looked at, until Ctrl-C. Whether results could not be written again.
+bool keep_page(Program& program, const io::RunRecord& record, const StopSignal& stop) {
+  bool has_failed = false;
+  if (!program.page) return has_failed;
+  if (!stop.is_requested())
+    std::fprintf(stderr, "geoloc_replay: the page stays at %s; Ctrl-C ends it\n",
+                 program.page->url().c_str());
+  while (!stop.is_requested()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    program.show->play_again(stop);
+    if (keep_notes(program.options.recording, program.outputs))
+      has_failed = !write_noted_objects(program.options.outputs, program.config,
+                                        program.recording.class_names, program.outputs, record);
+  }
+  return has_failed;
 }
 
 }  // namespace
@@ -194,19 +205,23 @@ int main(int argc, char** argv) {
   const StopSignal stop;
   if (program->recording.skipped_lines > 0)
     std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", program->recording.skipped_lines);
-  const bool is_terminal = isatty(STDERR_FILENO) != 0;
+  const bool has_reader = isatty(STDERR_FILENO) == 1;
   if (program->page)
-    std::fprintf(stderr, "%s\n", page_message(*program->page, options.outputs, is_terminal).c_str());
-  replay_all(*program, stop);
-  for (const std::string& line : program->session.take_news())
+    std::fprintf(stderr, "%s\n", page_message(*program->page, options.outputs, has_reader).c_str());
+  if (const auto code = has_reader && program->page ? page_for_telephones(*program->page) : ""; !code.empty())
+    std::fprintf(stderr, "%s\n", code.c_str());
+  program->show->play_to_end(stop);
+  keep_notes(options.recording, program->outputs);
+  for (const std::string& line : program->show->session().take_news())
     std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());
 
   const io::RunRecord record =
-      record_run(program->session, program->recording.class_names, program->truth, options.recording);
+      record_run(program->show->session(), program->recording.class_names, program->truth, options.recording);
   program->outputs.finish(record);
+  program->show->show_end();
   program->tell_all();
   if (options.outputs.wants_table()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   std::fprintf(stderr, "%s\n", record.summary.c_str());
-  keep_page(*program, stop);
-  return program->outputs.has_failed() ? kFailed : kDone;
+  const bool has_failed = keep_page(*program, record, stop);
+  return has_failed || program->outputs.has_failed() ? kFailed : kDone;
 }

@@ -27,7 +27,11 @@ struct Recorder::State {
     HostTime received_at;
     std::vector<std::uint8_t> frame;
   };
-  using Entry = std::variant<Telemetry, io::RecordedFrame>;
+  struct Picture {
+    std::uint64_t object_id;
+    std::string jpeg;
+  };
+  using Entry = std::variant<Telemetry, io::RecordedFrame, io::NotedObject, Picture>;
 
   explicit State(std::size_t its_bound_bytes) : most_waiting_bytes(its_bound_bytes) {}
 
@@ -66,12 +70,18 @@ struct Recorder::State {
 /// What an entry takes in memory, about.
 std::size_t Recorder::State::size_bytes(const Entry& entry) {
   if (const auto* telemetry = std::get_if<Telemetry>(&entry)) return sizeof entry + telemetry->frame.size();
+  if (const auto* noted = std::get_if<io::NotedObject>(&entry)) return sizeof entry + noted->note.name.size();
+  if (const auto* picture = std::get_if<Picture>(&entry)) return sizeof entry + picture->jpeg.size();
   return sizeof entry + std::get<io::RecordedFrame>(entry).detections.size() * sizeof(Detection);
 }
 
 void Recorder::State::write(const Entry& entry) {
   if (const auto* telemetry = std::get_if<Telemetry>(&entry)) {
     writer->add_telemetry(telemetry->received_at, telemetry->frame.data(), telemetry->frame.size());
+  } else if (const auto* noted = std::get_if<io::NotedObject>(&entry)) {
+    writer->add_note(*noted);
+  } else if (const auto* picture = std::get_if<Picture>(&entry)) {
+    writer->write_picture(picture->object_id, picture->jpeg);
   } else {
     writer->add_frame(std::get<io::RecordedFrame>(entry));
   }
@@ -196,6 +206,14 @@ void Recorder::add_telemetry(HostTime received_at, const std::uint8_t* frame, st
 
 void Recorder::add_frame(io::RecordedFrame frame) {
   if (state_) state_->add(std::move(frame));
+}
+
+void Recorder::add_note(io::NotedObject noted) {
+  if (state_) state_->add(std::move(noted));
+}
+
+void Recorder::add_picture(std::uint64_t object_id, const std::string& jpeg) {
+  if (state_) state_->add(State::Picture{object_id, jpeg});
 }
 
 std::vector<std::string> Recorder::take_messages() {

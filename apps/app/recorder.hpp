@@ -34,6 +34,9 @@ class Recorder {
 
   void add_telemetry(HostTime received_at, const std::uint8_t* frame, std::size_t size);
   void add_frame(io::RecordedFrame frame);
+  void add_note(io::NotedObject noted);
+  /// An object's best picture so far, a JPEG. From any thread.
+  void add_picture(std::uint64_t object_id, const std::string& jpeg);
 
   /// Records of telemetry that were taken so far (io::RecordedFrame::telemetry_records).
   std::uint64_t telemetry_records() const { return telemetry_records_; }

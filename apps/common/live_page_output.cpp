@@ -2,7 +2,10 @@
 #include "common/live_page_output.hpp"
 
 #include <stdexcept>
+#include <utility>
 
+#include "common/network_address.hpp"
+#include "common/qr_code.hpp"
 #include "geoloc/io/live_page/page_token.hpp"
 
 namespace geoloc::apps {
@@ -34,18 +37,25 @@ std::string warning_of(const OutputOptions& options) {
 
 std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const io::LivePageConfig& config,
                                              const io::LivePageTitle& title,
-                                             const std::vector<std::string>& class_names, Outputs& outputs) {
+                                             const std::vector<std::string>& class_names,
+                                             const Outputs& outputs,
+                                             std::shared_ptr<io::ReplayControl> playback) {
   if (options.http.empty()) return nullptr;
   const std::string token = token_of(options.http_token);
-  std::shared_ptr<io::LivePage> page;
   try {
-    page = std::make_shared<io::LivePage>(io::parse_http_endpoint(options.http), config, title, class_names,
-                                          token);
+    return std::make_shared<io::LivePage>(io::parse_http_endpoint(options.http), config, title, class_names,
+                                          token, outputs.notes(), std::move(playback));
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("--http: ") + error.what());
   }
-  outputs.add(std::make_unique<io::LivePageSink>(page));
-  return page;
+}
+
+std::string page_for_telephones(const io::LivePage& page) {
+  const auto address = network_address();
+  if (!page.is_open_to_network() || !address) return {};
+  const std::string query = page.token().empty() ? "" : "?token=" + page.token();
+  const std::string url = page.url_for_others(*address) + query;
+  return qr_code(url) + "from a telephone in the same network: " + url;
 }
 
 std::string page_message(const io::LivePage& page, const OutputOptions& options, bool is_terminal) {

@@ -11,12 +11,18 @@
 
 namespace geoloc::apps {
 
-/// Opens the page of --http, with the token of --http-token, and adds it to the outputs; nullptr where none
-/// is wanted. It is served as long as it is held. Throws std::exception saying what is wrong with the
+/// Opens the page of --http, with the token of --http-token; nullptr where none is wanted. It is served as
+/// long as it is held. `playback` is that of a replay. Throws std::exception saying what is wrong with the
 /// endpoint or the token's file.
 std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const io::LivePageConfig& config,
                                              const io::LivePageTitle& title,
-                                             const std::vector<std::string>& class_names, Outputs& outputs);
+                                             const std::vector<std::string>& class_names,
+                                             const Outputs& outputs,
+                                             std::shared_ptr<io::ReplayControl> playback = nullptr);
+
+/// For a terminal: a QR code of the page's address, and the address. Empty where the page is not open to the
+/// network, or this computer is in none.
+std::string page_for_telephones(const io::LivePage& page);
 
 /// Where the page is, and who else can see it, for the user. The token is shown to a terminal, for its reader
 /// to open the page, but kept out of logs.

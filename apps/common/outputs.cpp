@@ -21,8 +21,9 @@ io::SinkRunner::Tell Outputs::teller() const {
 
 void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool is_located) {
   if (streams_.empty()) return;
-  const auto report = std::make_shared<const io::OutputFrame>(
+  const auto report = std::make_shared<io::OutputFrame>(
       io::report_frame(session.geolocator(), is_located, frame.captured_at, frame.detections, class_names_));
+  notes_->apply(report->objects);
   for (io::SinkRunner* sink : streams_) sink->post(report);
 }
 
@@ -32,6 +33,7 @@ void Outputs::post_status(const io::LiveStatus& status) {
 }
 
 void Outputs::post_run(io::RunRecord run) {
+  notes_->apply(run.objects);
   const auto shared = std::make_shared<const io::RunRecord>(std::move(run));
   for (const auto& sink : sinks_) sink->post(shared);
 }

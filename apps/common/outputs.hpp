@@ -7,6 +7,7 @@
 
 #include "common/message_box.hpp"
 #include "common/session.hpp"
+#include "geoloc/io/output/note_book.hpp"
 #include "geoloc/io/output/sink_runner.hpp"
 
 namespace geoloc::apps {
@@ -35,12 +36,16 @@ class Outputs {
   /// For sinks that have something to tell a user themselves.
   io::SinkRunner::Tell teller() const;
 
+  /// What people say of the objects, which all sinks are told.
+  const std::shared_ptr<io::NoteBook>& notes() const { return notes_; }
+
   /// What the sinks have to tell a user, since the last call.
   std::vector<std::string> take_messages() { return messages_->take(); }
 
  private:
   std::vector<std::string> class_names_;
   io::SinkRunnerConfig config_;
+  std::shared_ptr<io::NoteBook> notes_ = std::make_shared<io::NoteBook>();
   std::shared_ptr<MessageBox> messages_ = std::make_shared<MessageBox>();  // stuck sinks outlive this object
   std::vector<std::unique_ptr<io::SinkRunner>> sinks_;
   std::vector<io::SinkRunner*> streams_;  // of the sinks, those that want frames

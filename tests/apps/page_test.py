@@ -4,32 +4,16 @@ import http.server
 import json
 import math
 import re
-import shutil
 import socket
 import threading
 import time
 import unittest
 import urllib.request
 
+from browser import HOSTILE_NAME, SCREENS, BrowserTest, url_of
 from support import BIN, PATIENCE_S, AppTest, Live, World, run
 
-try:
-    from playwright.sync_api import sync_playwright
-except ImportError:
-    sync_playwright = None
-
-CHROMIUM = shutil.which("chromium")
 SCREENSHOTS = BIN.parent / "screenshots"  # for manual inspection
-HOSTILE_NAME = "<img src=x onerror=document.title='run'>\"&"
-
-SCREENS = {
-    "desktop_light": {"viewport": {"width": 1360, "height": 820}, "color_scheme": "light"},
-    "desktop_dark": {"viewport": {"width": 1360, "height": 820}, "color_scheme": "dark"},
-    "phone_light": {"viewport": {"width": 390, "height": 844}, "color_scheme": "light", "device_scale_factor": 2,
-                    "has_touch": True},
-    "phone_dark": {"viewport": {"width": 390, "height": 844}, "color_scheme": "dark", "device_scale_factor": 2,
-                   "has_touch": True},
-}
 
 # Where the map shows the first pixel of a colour, in the page's coordinates; null where there is none.
 FIND_COLOUR = """([selector, colour]) => {
@@ -71,10 +55,6 @@ def tile_of(feature, zoom):
     return (zoom, *(int(2**zoom * turn) for turn in turns))
 
 
-def url_of(program):
-    return program.wait_for(r"^page: (http://127\.0\.0\.1:\d+/)")[1]
-
-
 TILE = b'<svg xmlns="http://www.w3.org/2000/svg" width="256" height="256"><path d="M0 0h256v256H0z" fill="#d0e8c0"/></svg>'
 
 
@@ -109,43 +89,21 @@ class TileServer:
         self._server.server_close()
 
 
-@unittest.skipUnless(sync_playwright, "no Playwright: scripts/test.sh installs it")
-@unittest.skipUnless(CHROMIUM, "no Chromium: apt-get install chromium")
-class LivePage(AppTest):
+class LivePage(BrowserTest):
     """What an operator is promised, on a telephone and on a desk, by day and by night."""
-
-    def setUp(self):
-        super().setUp()
-        self.objects_file = self.folder / "objects.geojson"
-        self.faults = []
-        self.hosts = set()
-        self.playwright = sync_playwright().start()
-        self.addCleanup(self.playwright.stop)
-        self.browser = self.playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        self.addCleanup(self.browser.close)
-
-    def open_screen(self, name, url):
-        context = self.browser.new_context(permissions=["clipboard-read", "clipboard-write"], **SCREENS[name])
-        page = context.new_page()
-        page.set_default_timeout(1000 * PATIENCE_S)
-        page.on("pageerror", lambda error: self.faults.append(f"{name}: {error}"))
-        page.on("console", lambda message: self.faults.append(f"{name}: {message.text}")
-                if message.type == "error" else None)
-        page.on("request", lambda request: self.hosts.add(request.url.split("/")[2]))
-        page.goto(url)
-        return page
 
     def test_shows_a_live_run_on_every_screen(self):
         names = self.write("names.txt", HOSTILE_NAME + "\n")
         world = World()
-        with world.watch("--http", "0", "--class-names", names, "--out", self.objects_file) as app:
+        recording = self.folder / "flight"
+        with world.watch("--http", "0", "--class-names", names, "--out", self.objects_file, "--record", recording) as app:
             url = url_of(app)
             pages = {name: self.open_screen(name, url) for name in SCREENS}
             with world.fly("--start-s", 80, "--end-s", 98, "--speed", 3):
                 pages["desktop_light"].wait_for_selector("#video:not([hidden])")
                 self.assertTrue(self.finds_colour(pages["desktop_light"], "#video-canvas", "#ffd23f"))
                 for page in pages.values():
-                    page.wait_for_selector("#objects tbody tr:not(.tentative)")
+                    page.wait_for_selector("#objects li[data-id]:not(.tentative)")
                 self.check_state(pages["desktop_light"])
                 for name, page in pages.items():
                     self.check_screen(name, page, url)
@@ -154,6 +112,7 @@ class LivePage(AppTest):
             self.assertEqual(self.hosts, {url.split("/")[2]})
             self.assertEqual(app.interrupt(), 0)  # with all pages open
             pages["phone_dark"].wait_for_selector("#notice:has-text('does not answer')")
+        self.check_recorded_pictures(recording)
 
     def test_draws_the_tiles_of_a_server_where_one_is_configured(self):
         with TileServer() as tiles:
@@ -178,10 +137,29 @@ class LivePage(AppTest):
     def check_state(self, page):
         page.wait_for_selector("#light-link:not(.bad)")
         page.wait_for_selector("#light-video:not(.bad)")
-        page.wait_for_selector("#calibration tr:has-text('Latency'):has-text('±')")
+        page.wait_for_selector("#calibration tr:has-text('Image delay'):has-text('±')")
         page.wait_for_selector("#counters:has-text('Frames located')")
         self.assertIn(HOSTILE_NAME, page.locator("#objects").inner_text())
-        self.assertEqual(page.locator("#objects img").count(), 0)
+        self.assertEqual(page.locator("#objects img[src=x]").count(), 0)
+        self.check_pictures(page)
+
+    def check_recorded_pictures(self, recording):
+        """The recording shows the same objects again."""
+        found = {feature["properties"]["id"] for feature in json.loads(self.objects_file.read_text())["features"]}
+        pictured = {int(file.stem) for file in (recording / "pictures").iterdir()}
+        self.assertLessEqual(found, pictured)
+        with Live("geoloc_replay", recording, "--http", "0", "--speed", "0") as replay:
+            url = url_of(replay)
+            replay.wait_for("the page stays at")
+            for chosen in found:
+                with urllib.request.urlopen(f"{url}objects/{chosen}/picture", timeout=PATIENCE_S) as answer:
+                    self.assertEqual(answer.headers["Content-Type"], "image/jpeg")
+                    self.assertEqual(answer.read(), (recording / "pictures" / f"{chosen}.jpg").read_bytes())
+
+    def check_pictures(self, page):
+        """Objects have a picture, cut from the video."""
+        page.wait_for_function("""() => [...document.querySelectorAll("#objects img:not([hidden])")]
+          .some((image) => image.complete && image.naturalWidth >= 40)""")
 
     def check_screen(self, name, page, url):
         """A click on an object shows its position; nothing overflows; a screenshot is kept."""

@@ -15,6 +15,7 @@
 #include "geoloc/io/config/known_points_file.hpp"
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
 
 // Every reader of external files, given any bytes: it may reject them with a std::exception, but what it
@@ -98,6 +99,20 @@ inline void read_any_truth(const std::string& text) {
   try {
     for (const TrueTarget& target : parse_truth(text, "any")) require(is_valid(target.position));
   } catch (const std::runtime_error&) {
+  }
+}
+
+/// notes.jsonl: what is read can be written, and is read again the same.
+inline void read_any_notes(const std::string& text) {
+  std::istringstream input(text);
+  std::size_t skipped = 0;
+  for (const NotedObject& noted : read_notes(input, skipped)) {
+    require(is_valid(noted.position));
+    std::istringstream line(note_to_line(noted));
+    std::size_t lost = 0;
+    const auto again = read_notes(line, lost);
+    require(lost == 0 && again.size() == 1 && again[0].object_id == noted.object_id &&
+            again[0].at == noted.at);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/live_page/live_site.hpp"
+#include "page_access.hpp"
 
 namespace geoloc::io::hostile {
 
@@ -40,7 +41,19 @@ inline void ask_with_token(const LiveSite& guarded, const PageRequest& request, 
 inline void ask_for_pages(const std::string& bytes) {
   static const LiveDocument document{{"run", true}};
   static PictureBoard board{{"target"}, std::chrono::milliseconds{100}};
-  static const LiveSite site{document, board, {}, {"localhost"}};
+  static int changes = 0;
+  static const PageActions actions{[](std::uint64_t /*id*/, const ObjectNote& note) {
+                                     ++changes;
+                                     if (note.name.size() > 4 * kLongestNoteName + 3) std::abort();
+                                     return true;
+                                   },
+                                   [](const ReplayWish& wish) {
+                                     ++changes;
+                                     if (wish.speed && !(*wish.speed > 0.0 && *wish.speed < 1e3))
+                                       std::abort();
+                                   }};
+  static const LiveSite site{document, board, {}, {"localhost"}, {}, actions};
+  static const PageAccess access{{}};
   static const std::string token = "0123456789abcdef";
   static const LiveSite guarded{document, board, {}, {"localhost"}, token};
   PageRequest request{word(bytes, 0), word(bytes, 1), word(bytes, 2), word(bytes, 3), word(bytes, 4)};
@@ -50,10 +63,13 @@ inline void ask_for_pages(const std::string& bytes) {
   std::replace(request.authorization.begin(), request.authorization.end(), '_', ' ');
   request.origin = word(bytes, 9);
   request.client_network = request.origin;
+  request.is_from_this_computer = word(bytes, 10) == "near";
   ask_with_token(guarded, request, token);
+  const int before = changes;
   const PageAnswer answer = site.answer(request);
   const bool is_ours = is_own_host(request.host, {"localhost"});
   if (answer.status == 200 && !is_ours) std::abort();
+  if (changes != before && !(is_ours && request.method == "POST" && access.may_change(request))) std::abort();
   if (answer.status < 200 || answer.status > 499) std::abort();
 
   const std::string origin = tile_origin(word(bytes, 5));  // is put into a header

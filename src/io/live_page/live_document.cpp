@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/live_page/live_document.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -16,6 +14,7 @@ constexpr std::size_t kMostPathPoints = 4096;
 constexpr double kPathSpacing_m = 0.3;
 constexpr std::size_t kMostFixes = 3000;
 constexpr std::size_t kMostObjects = 5000;
+constexpr std::size_t kMostPictures = 2000;
 constexpr std::size_t kMostMoments = 128;
 constexpr double kNoteworthyChange = 0.05;  // of an object's sigma
 
@@ -31,7 +30,7 @@ void thin_out(std::vector<T>& entries) {
 bool is_same(const ObjectReport& a, const ObjectReport& b) {
   return a.position_in_enu == b.position_in_enu && a.covariance_in_enu == b.covariance_in_enu &&
          a.height.above_home_m == b.height.above_home_m && a.hits == b.hits && a.confidence == b.confidence &&
-         a.class_id == b.class_id;
+         a.class_id == b.class_id && a.note == b.note;
 }
 
 }  // namespace
@@ -56,7 +55,9 @@ void LiveDocument::add(const OutputFrame& frame) {
   const std::lock_guard lock(mutex_);
   publish();
   add_objects(frame);
+  run_.estimator = frame.estimator;
   set("estimator", page_json::estimator(frame.estimator));
+  newest_at_ = frame.captured_at;
   if (!frame.view || !frame.view->vehicle_in_enu.allFinite()) return;
   set("view", page_json::view(frame));
   if (parts_.count("anchor") == 0) set("anchor", page_json::anchor(*frame.view));
@@ -74,12 +75,83 @@ void LiveDocument::add(const RunRecord& run) {
   const std::lock_guard lock(mutex_);
   publish();
   set("targets", page_json::targets(run.targets));
+  set("estimator", page_json::estimator(run.estimator));
+  run_.title = run.title;
+  run_.summary = run.summary;
+  run_.estimator = run.estimator;
+  run_.local_frame = run.local_frame;
+  run_.ground_height_above_home_m = run.ground_height_above_home_m;
+  run_.trajectory = run.trajectory;
+  for (const ObjectReport& report : run.objects)
+    add_object(report, true, std::max(newest_at_, report.last_seen));
+  remove_objects([this](const Entry& entry) { return entry.is_confirmed && entry.seen_in != revision_; });
+}
+
+std::optional<NotedObject> LiveDocument::note(std::uint64_t id, const ObjectNote& note) {
+  const std::lock_guard lock(mutex_);
+  const auto found = objects_.find(id);
+  if (found == objects_.end() || !found->second.is_confirmed) return std::nullopt;
+  publish();
+  Entry& entry = found->second;
+  entry.report.note = note;
+  write_json(id, entry);
+  return NotedObject{newest_at_, id, entry.report.position, note};
+}
+
+std::uint64_t LiveDocument::revision() const {
+  const std::lock_guard lock(mutex_);
+  return revision_;
+}
+
+RunRecord LiveDocument::record() const {
+  const std::lock_guard lock(mutex_);
+  RunRecord run = run_;
+  for (const auto& [id, entry] : objects_) {
+    if (entry.is_confirmed) run.objects.push_back(entry.report);
+  }
+  return run;
+}
+
+void LiveDocument::show_object(std::uint64_t id, std::string jpeg) {
+  const std::lock_guard lock(mutex_);
+  if (pictures_.size() >= kMostPictures && pictures_.count(id) == 0) return;
+  publish();
+  pictures_[id] = {std::make_shared<const std::string>(std::move(jpeg)), ++pictures_made_};
+  if (const auto found = objects_.find(id); found != objects_.end()) write_json(id, found->second);
+}
+
+std::shared_ptr<const std::string> LiveDocument::picture_of(std::uint64_t id) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = pictures_.find(id);
+  return found == pictures_.end() ? nullptr : found->second.jpeg;
 }
 
 void LiveDocument::announce_picture(std::uint64_t number) {
   const std::lock_guard lock(mutex_);
   publish();
   set("picture", std::to_string(number));
+}
+
+void LiveDocument::show_playback(const std::string& json) {
+  const std::lock_guard lock(mutex_);
+  if (parts_["playback"].json == json) return;
+  publish();
+  set("playback", json);
+}
+
+void LiveDocument::begin_anew() {
+  const std::lock_guard lock(mutex_);
+  publish();
+  for (auto part = parts_.begin(); part != parts_.end();) {
+    const std::string& name = part->first;
+    const bool is_kept = name == "run" || name == "targets" || name == "playback";
+    part->second.revision = revision_;  // a page forgets everything when it is told of a run
+    part = is_kept ? std::next(part) : parts_.erase(part);
+  }
+  objects_.clear();
+  path_.clear();
+  ++path_epoch_;
+  fixes_.clear();
 }
 
 void LiveDocument::end() {
@@ -91,12 +163,16 @@ void LiveDocument::end() {
 void LiveDocument::add_objects(const OutputFrame& frame) {
   for (const ObjectReport& report : frame.objects) add_object(report, true, frame.captured_at);
   for (const ObjectReport& report : frame.tentative) add_object(report, false, frame.captured_at);
+  remove_objects([this](const Entry& entry) { return entry.seen_in != revision_; });
+}
+
+void LiveDocument::remove_objects(const std::function<bool(const Entry&)>& is_gone) {
   for (auto entry = objects_.begin(); entry != objects_.end();) {
-    if (entry->second.seen_in == revision_) {
-      ++entry;
-    } else {
+    if (is_gone(entry->second)) {
       entry = objects_.erase(entry);
       removed_revision_ = revision_;
+    } else {
+      ++entry;
     }
   }
 }
@@ -111,7 +187,13 @@ void LiveDocument::add_object(const ObjectReport& report, bool is_confirmed, Hos
   entry.report = report;
   entry.is_confirmed = is_confirmed;
   note_moment(entry, at);
-  std::string json = page_json::object(report, is_confirmed);
+  write_json(report.id, entry);
+}
+
+void LiveDocument::write_json(std::uint64_t id, Entry& entry) const {
+  const auto picture = pictures_.find(id);
+  std::string json = page_json::object(entry.report, entry.is_confirmed,
+                                       picture == pictures_.end() ? 0 : picture->second.number);
   if (json == entry.json) return;
   entry.json = std::move(json);
   entry.revision = revision_;
@@ -147,95 +229,6 @@ void LiveDocument::add_fixes(const OutputFrame& frame) {
     fixes_.push_back({fix.ground.position_in_enu, fix.detection.confidence, frame.captured_at});
     ++fixes_end_;
   }
-}
-
-bool LiveDocument::wait(const Cursor& cursor, std::chrono::milliseconds timeout) const {
-  std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, timeout, [&] { return is_closed_ || revision_ > cursor.revision; });
-  return !is_closed_ && revision_ > cursor.revision;
-}
-
-void LiveDocument::pause_until(std::chrono::steady_clock::time_point time) const {
-  std::unique_lock lock(mutex_);
-  closing_.wait_until(lock, time, [this] { return is_closed_; });
-}
-
-std::string LiveDocument::objects_since(std::uint64_t revision) const {
-  std::string json = "[";
-  for (const auto& [id, entry] : objects_) {
-    if (entry.revision <= revision) continue;
-    if (json.size() > 1) json += ',';
-    json += entry.json;
-  }
-  return json + "]";
-}
-
-std::string LiveDocument::path_since(const Cursor& cursor) const {
-  const std::size_t first = cursor.path_epoch == path_epoch_ ? std::min(cursor.path, path_.size()) : 0;
-  std::string json = "[";
-  for (std::size_t i = first; i < path_.size(); ++i) {
-    fmt::format_to(std::back_inserter(json), "{}[{:.2f},{:.2f}]", i == first ? "" : ",", path_[i].x(),
-                   path_[i].y());
-  }
-  return json + "]";
-}
-
-std::string LiveDocument::fixes_since(std::uint64_t first) const {
-  const std::uint64_t oldest = fixes_end_ - fixes_.size();
-  const auto begin = static_cast<std::size_t>(std::max(first, oldest) - oldest);
-  std::string json = "[";
-  for (std::size_t i = begin; i < fixes_.size(); ++i) {
-    const Fix& fix = fixes_[i];
-    fmt::format_to(std::back_inserter(json), "{}[{:.2f},{:.2f},{}]", i == begin ? "" : ",",
-                   fix.position_in_enu.x(), fix.position_in_enu.y(), page_json::milliseconds(fix.at));
-  }
-  return json + "]";
-}
-
-std::string LiveDocument::changes(Cursor& cursor) const {
-  const std::lock_guard lock(mutex_);
-  std::string json;
-  page_json::append(json, "revision", std::to_string(revision_));
-  for (const auto& [name, part] : parts_) {
-    if (part.revision > cursor.revision) page_json::append(json, name, part.json);
-  }
-  page_json::append(json, "objects", objects_since(cursor.revision));
-  if (removed_revision_ > cursor.revision) {
-    std::string ids = "[";
-    for (const auto& [id, entry] : objects_) ids += (ids.size() > 1 ? "," : "") + std::to_string(id);
-    page_json::append(json, "ids", ids + "]");
-  }
-  if (cursor.path_epoch != path_epoch_) page_json::append(json, "path_begins_anew", "true");
-  page_json::append(json, "path", path_since(cursor));
-  page_json::append(json, "fixes", fixes_since(cursor.fixes));
-  cursor = {revision_, path_.size(), fixes_end_, path_epoch_};
-  return json + "}";
-}
-
-std::optional<std::string> LiveDocument::object(std::uint64_t id) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = objects_.find(id);
-  if (found == objects_.end()) return std::nullopt;
-  const Entry& entry = found->second;
-  std::string history = "[";
-  for (const Moment& moment : entry.history) {
-    fmt::format_to(std::back_inserter(history), "{}[{},{},{:.4f}]", history.size() > 1 ? "," : "",
-                   page_json::milliseconds(moment.at), moment.hits,
-                   std::isfinite(moment.sigma_major_m) ? moment.sigma_major_m : 0.0);
-  }
-  return page_json::details(entry.report, entry.json, history + "]");
-}
-
-void LiveDocument::close() {
-  const std::lock_guard lock(mutex_);
-  is_closed_ = true;
-  changed_.notify_all();
-  closing_.notify_all();
-}
-
-bool LiveDocument::is_closed() const {
-  const std::lock_guard lock(mutex_);
-  return is_closed_;
 }
 
 }  // namespace geoloc::io

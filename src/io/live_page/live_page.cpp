@@ -47,12 +47,15 @@ class PageStream {
 }  // namespace
 
 LivePage::LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
-                   const std::vector<std::string>& class_names, const std::string& token)
+                   const std::vector<std::string>& class_names, const std::string& token,
+                   std::shared_ptr<NoteBook> notes, std::shared_ptr<ReplayControl> playback)
     : endpoint_(endpoint),
       token_(token),
+      notes_(std::move(notes)),
       document_(title),
       board_(class_names, std::chrono::milliseconds{std::lround(1e3 * config.picture_period_s)}),
-      site_(document_, board_, config, names_of_this_computer(endpoint.host), token) {
+      site_(document_, board_, config, names_of_this_computer(endpoint.host), token,
+            actions(std::move(playback))) {
   const std::chrono::milliseconds period{std::lround(1e3 * config.update_period_s)};
   server_ = std::make_unique<HttpServer>(
       endpoint, limits_of(config), site_.headers(),
@@ -67,17 +70,40 @@ LivePage::~LivePage() {
   document_.close();
 }
 
+PageActions LivePage::actions(std::shared_ptr<ReplayControl> playback) {
+  PageActions actions;
+  actions.note = [this](std::uint64_t object_id, const ObjectNote& its_note) {
+    return note(object_id, its_note);
+  };
+  if (playback) actions.play = [playback](const ReplayWish& wish) { playback->wish(wish); };
+  return actions;
+}
+
+bool LivePage::note(std::uint64_t object_id, const ObjectNote& note) {
+  const auto noted = document_.note(object_id, note);
+  return noted && notes_->add(*noted);
+}
+
 bool LivePage::is_open_to_network() const {
   const std::string& host = endpoint_.host;
   return host != "localhost" && host != "::1" && host.rfind("127.", 0) != 0;
 }
 
+bool LivePage::is_on_every_interface() const {
+  return endpoint_.host == "0.0.0.0" || endpoint_.host == "::";
+}
+
+std::string LivePage::url_of(const std::string& host) const {
+  const bool is_v6 = host.find(':') != std::string::npos;
+  return "http://" + (is_v6 ? "[" + host + "]" : host) + ":" + std::to_string(endpoint_.port) + "/";
+}
+
 std::string LivePage::url() const {
-  const bool is_everywhere = endpoint_.host == "0.0.0.0" || endpoint_.host == "::";
-  const bool is_v6 = endpoint_.host.find(':') != std::string::npos;
-  const std::string host =
-      is_everywhere ? "127.0.0.1" : (is_v6 ? "[" + endpoint_.host + "]" : endpoint_.host);
-  return "http://" + host + ":" + std::to_string(endpoint_.port) + "/";
+  return url_of(is_on_every_interface() ? "127.0.0.1" : endpoint_.host);
+}
+
+std::string LivePage::url_for_others(const std::string& address) const {
+  return url_of(is_on_every_interface() ? address : endpoint_.host);
 }
 
 }  // namespace geoloc::io

@@ -11,15 +11,21 @@
 #include <chrono>
 #include <string_view>
 
+#include "form_fields.hpp"
 #include "geoloc/io/output/palette.hpp"
+#include "geoloc/io/output/text.hpp"
 #include "page_access.hpp"
 #include "page_files.hpp"
 #include "page_json.hpp"
+#include "run_files.hpp"
 
 namespace geoloc::io {
 namespace {
 
 constexpr std::string_view kObjects = "/objects/";
+constexpr std::string_view kNote = "/note";
+constexpr std::string_view kPicture = "/picture";
+constexpr std::string_view kPlayback = "/playback";
 constexpr std::size_t kLongestHost = 255;
 
 std::string lower_case(std::string text) {
@@ -111,13 +117,21 @@ std::optional<std::uint64_t> object_of_path(const std::string& path) {
   return id;
 }
 
+std::optional<std::uint64_t> object_of_path(const std::string& path, std::string_view part) {
+  if (path.size() <= part.size() || path.compare(path.size() - part.size(), part.size(), part) != 0)
+    return std::nullopt;
+  return object_of_path(path.substr(0, path.size() - part.size()));
+}
+
 LiveSite::LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
-                   std::vector<std::string> own_names, const std::string& token)
+                   std::vector<std::string> own_names, const std::string& token, PageActions actions)
     : document_(document),
       board_(board),
       own_names_(std::move(own_names)),
+      config_(config),
+      actions_(std::move(actions)),
       access_(std::make_unique<PageAccess>(token)),
-      settings_json_(page_json::settings(config)),
+      files_(std::make_unique<RunFiles>(document)),
       headers_{{"Content-Security-Policy", content_security_policy(config, !token.empty())},
                {"X-Content-Type-Options", "nosniff"},
                {"Referrer-Policy", "no-referrer"},
@@ -132,8 +146,33 @@ PageAnswer LiveSite::answer(const PageRequest& request) const {
     return refuse(421, "Use this computer's address: the name in the request is not one of its own.");
   if (is_on_behalf_of_another_site(request)) return refuse(403, "Not available to pages of other sites.");
   if (auto instead = access_->answer_instead(request, std::chrono::steady_clock::now())) return *instead;
+  if (request.method == "POST") return change(request);
   if (request.method != "GET" && request.method != "HEAD") return refuse(405, "Only GET and HEAD.");
   return dispatch(request);
+}
+
+PageAnswer LiveSite::change(const PageRequest& request) const {
+  const bool is_note = object_of_path(request.path, kNote) && actions_.note;
+  const bool is_wish = request.path == kPlayback && actions_.play;
+  if (!is_note && !is_wish) return refuse(405, "Only GET and HEAD.");
+  if (!access_->may_change(request))
+    return refuse(403,
+                  "Changes are accepted from this computer's own pages and programs, or with the token.");
+  if (is_note) return take_note(request);
+  const auto wish = parse_replay_wish(request.query);
+  if (!wish) return refuse(400, "paused must be 0 or 1, speed 0.1 to 100, at milliseconds since 1970.");
+  actions_.play(*wish);
+  return PageAnswer{204, "", "", false};
+}
+
+PageAnswer LiveSite::take_note(const PageRequest& request) const {
+  const auto verdict = parse_verdict(form_field(request.query, "verdict").value_or(""));
+  if (!verdict) return refuse(400, "verdict must be confirmed, dismissed or empty.");
+  const ObjectNote note{clean_text(form_field(request.query, "name").value_or(""), kLongestNoteName),
+                        *verdict};
+  if (!actions_.note(*object_of_path(request.path, kNote), note))
+    return refuse(404, "No such confirmed object, or too many notes.");
+  return PageAnswer{204, "", "", false};
 }
 
 PageAnswer LiveSite::dispatch(const PageRequest& request) const {
@@ -147,8 +186,14 @@ PageAnswer LiveSite::dispatch(const PageRequest& request) const {
     if (!framed) return PageAnswer{204, "", "", false};
     return {200, "application/octet-stream", *framed, false};
   }
-  if (path == "/settings") return json(settings_json_);
+  if (path == "/settings")
+    return json(page_json::settings(config_, actions_.note && access_->may_change(request)));
+  if (auto file = files_->find(path)) return {200, file->type, std::move(file->content), false};
   if (path.compare(0, kObjects.size(), kObjects) == 0) {
+    if (const auto pictured = object_of_path(path, kPicture)) {
+      const auto jpeg = document_.picture_of(*pictured);
+      return jpeg ? PageAnswer{200, "image/jpeg", *jpeg, false} : refuse(404, "No picture of it.");
+    }
     const auto id = object_of_path(path);
     auto text = id ? document_.object(*id) : std::nullopt;
     return text ? json(std::move(*text)) : refuse(404, "No such object.");

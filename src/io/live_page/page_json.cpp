@@ -31,13 +31,13 @@ ordered_json calibration(const Calibration& calibration) {
                     {"sigma", decimals(calibration.sigma(index) * scale, digits)},
                     {"digits", digits}});
   };
-  add("Latency", "ms", Index::kLatency, 1e3, 1);
-  add("Boresight x", "°", Index::kBoresight, kDegPerRad, 3);
-  add("Boresight y", "°", Index::kBoresight + 1, kDegPerRad, 3);
-  add("Boresight z", "°", Index::kBoresight + 2, kDegPerRad, 3);
-  add("Height", "m", Index::kHeight, 1.0, 3);
-  add("Offset east", "m", Index::kOffset, 1.0, 3);
-  add("Offset north", "m", Index::kOffset + 1, 1.0, 3);
+  add("Image delay", "ms", Index::kLatency, 1e3, 1);
+  add("Camera turned about its x axis", "°", Index::kBoresight, kDegPerRad, 3);
+  add("Camera turned about its y axis", "°", Index::kBoresight + 1, kDegPerRad, 3);
+  add("Camera turned about its z axis", "°", Index::kBoresight + 2, kDegPerRad, 3);
+  add("Error of the vehicle's height", "m", Index::kHeight, 1.0, 3);
+  add("Error of the vehicle's position, east", "m", Index::kOffset, 1.0, 3);
+  add("Error of the vehicle's position, north", "m", Index::kOffset + 1, 1.0, 3);
   return rows;
 }
 
@@ -115,8 +115,10 @@ std::string picture(const LivePicture& picture, std::uint64_t number,
                   {"boxes", std::move(boxes)}});
 }
 
-std::string settings(const LivePageConfig& config) {
-  return text_of({{"tile_url", config.tile_url}, {"tile_attribution", config.tile_attribution}});
+std::string settings(const LivePageConfig& config, bool may_change) {
+  return text_of({{"tile_url", config.tile_url},
+                  {"tile_attribution", config.tile_attribution},
+                  {"may_change", may_change}});
 }
 
 std::string anchor(const ViewReport& view) {
@@ -151,12 +153,14 @@ std::string estimator(const EstimatorReport& report) {
   return text_of(json);
 }
 
-std::string object(const ObjectReport& object, bool is_confirmed) {
+std::string object(const ObjectReport& object, bool is_confirmed, std::uint64_t picture) {
   ordered_json json{{"id", object.id},
                     {"confirmed", is_confirmed},
                     {"name", object.class_name},
                     {"class", object.class_id},
                     {"at", point(object.position_in_enu)},
+                    {"latitude_deg", decimals(object.position.latitude_deg, 8)},
+                    {"longitude_deg", decimals(object.position.longitude_deg, 8)},
                     {"major_m", decimals(object.ellipse.sigma_major_m, 3)},
                     {"minor_m", decimals(object.ellipse.sigma_minor_m, 3)},
                     {"azimuth_deg", decimals(object.ellipse.azimuth_deg, 0)},
@@ -165,11 +169,15 @@ std::string object(const ObjectReport& object, bool is_confirmed) {
                     {"hits", object.hits},
                     {"first_seen", milliseconds(object.first_seen)},
                     {"last_seen", milliseconds(object.last_seen)}};
+  if (picture > 0) json["picture"] = picture;
   if (object.height.sigma_m) json["sigma_height_m"] = decimals(*object.height.sigma_m, 3);
   if (object.course) {
     json["speed_mps"] = decimals(object.course->speed_mps, 2);
     json["course_deg"] = decimals(object.course->direction_deg, 0);
   }
+  if (object.height.msl_m) json["height_msl_m"] = decimals(*object.height.msl_m, 1);
+  if (!object.note.name.empty()) json["operator_name"] = object.note.name;
+  if (object.note.verdict != Verdict::kNone) json["verdict"] = word_of(object.note.verdict);
   return text_of(json);
 }
 

@@ -15,7 +15,8 @@ std::string title(const LivePageTitle& title);
 std::string status(const LiveStatus& status);
 std::string view(const OutputFrame& frame);
 std::string estimator(const EstimatorReport& report);
-std::string object(const ObjectReport& object, bool is_confirmed);
+/// `picture`: number of its picture; 0: there is none.
+std::string object(const ObjectReport& object, bool is_confirmed, std::uint64_t picture);
 
 std::string targets(const std::vector<Eigen::Vector2d>& positions_in_enu);
 
@@ -23,8 +24,8 @@ std::string targets(const std::vector<Eigen::Vector2d>& positions_in_enu);
 std::string picture(const LivePicture& picture, std::uint64_t number,
                     const std::vector<std::string>& class_names);
 
-/// The settings that the page needs.
-std::string settings(const LivePageConfig& config);
+/// The settings that the page needs. `may_change`: whether it may write notes.
+std::string settings(const LivePageConfig& config, bool may_change);
 
 /// A position known in both frames, with which the page converts east and north to degrees.
 std::string anchor(const ViewReport& view);

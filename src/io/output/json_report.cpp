@@ -27,6 +27,8 @@ ordered_json properties_to_json(const ObjectReport& object) {
     properties["speed_mps"] = decimals(object.course->speed_mps, 2);
     properties["course_deg"] = decimals(object.course->direction_deg, 1);
   }
+  if (!object.note.name.empty()) properties["operator_name"] = object.note.name;
+  if (object.note.verdict != Verdict::kNone) properties["operator_verdict"] = word_of(object.note.verdict);
   return properties;
 }
 

@@ -52,6 +52,9 @@ void write_properties(const ObjectReport& object, std::string& kml) {
     write_number("speed_mps", object.course->speed_mps, 2, kml);
     write_number("course_deg", object.course->direction_deg, 1, kml);
   }
+  if (!object.note.name.empty()) write_data("operator_name", escape_markup(object.note.name), kml);
+  if (object.note.verdict != Verdict::kNone)
+    write_data("operator_verdict", word_of(object.note.verdict), kml);
   kml += "</ExtendedData>\n";
 }
 
@@ -74,7 +77,8 @@ std::string ellipse_ring(const ObjectReport& object, const LocalFrame& frame) {
 
 void write_object(const ObjectReport& object, const LocalFrame& frame, std::string& kml) {
   const auto out = std::back_inserter(kml);
-  const std::string name = escape_markup(object.class_name) + " " + std::to_string(object.id);
+  const std::string& called = object.note.name.empty() ? object.class_name : object.note.name;
+  const std::string name = escape_markup(called) + " " + std::to_string(object.id);
   const std::string since = "<TimeSpan><begin>" + iso8601(object.first_seen) + "</begin></TimeSpan>";
   fmt::format_to(out, "<Placemark><name>{}</name>{}<styleUrl>#object</styleUrl>\n", name, since);
   write_properties(object, kml);

@@ -9,6 +9,8 @@
 #include <stdexcept>
 
 #include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/recording/notes_file.hpp"
+#include "geoloc/io/recording/object_pictures.hpp"
 #include "geoloc/io/recording/recording_files.hpp"
 
 namespace geoloc::io {
@@ -219,6 +221,9 @@ Recording read_recording(const fs::path& folder, BadLines bad_lines) {
     recording.class_names = read_class_names(folder / kClassNamesFile);
   if (fs::exists(folder / kCountsFile)) recording.frames_damaged = read_damaged(folder / kCountsFile);
   if (fs::exists(folder / kTruthFile)) recording.truth = read_truth(folder / kTruthFile);
+  std::ifstream notes(folder / kNotesFile, std::ios::binary);  // most recordings have none
+  recording.notes = read_notes(notes, recording.skipped_lines);
+  recording.pictures = read_object_pictures(folder);
   return recording;
 }
 

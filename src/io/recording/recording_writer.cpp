@@ -11,6 +11,7 @@
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/detection_fields.hpp"
+#include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/recording_files.hpp"
 #include "geoloc/io/sync.hpp"
 #include "geoloc/io/write_failure.hpp"
@@ -140,14 +141,36 @@ void RecordingWriter::add_frame(const RecordedFrame& frame) {
   frames_.append(to_json(frame).dump() + "\n");
 }
 
+void RecordingWriter::add_note(const NotedObject& noted) {
+  if (!notes_) {
+    notes_.emplace(place_.partial / kNotesFile);
+    io::sync(place_.partial);
+  }
+  notes_->append(note_to_line(noted));
+}
+
+void RecordingWriter::write_picture(std::uint64_t object_id, const std::string& jpeg) {
+  const fs::path pictures = place_.partial / kPicturesFolder;
+  make_folders(pictures);
+  // Not synced: the estimate is worth the disk's time, a picture is not.
+  const fs::path picture = pictures / (std::to_string(object_id) + ".jpg");
+  write_to(picture, [&] {
+    OutputStream stream = OutputStream::file(picture);
+    stream.write(jpeg);
+    stream.close();
+  });
+}
+
 void RecordingWriter::sync() {
   telemetry_.sync();
   frames_.sync();
+  if (notes_) notes_->sync();
 }
 
 void RecordingWriter::finish() {
   telemetry_.finish();
   frames_.finish();
+  if (notes_) notes_->finish();
   const fs::path wanted = place_.folder;
   for (int number = 2; ::rename(place_.partial.c_str(), place_.folder.c_str()) != 0; ++number) {
     // Another run may have taken the name since; rename() replaces no folder but an empty one.

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kRoom = 16384;
 const std::string kRequest =
     "GET /objects/17?x=1 HTTP/1.1\r\nHost: localhost:8080\r\nsec-fetch-site: same-origin\r\n"
-    "Sec-Fetch-Mode: cors\r\n\r\n";
+    "Sec-Fetch-Mode: cors\r\nOrigin: http://localhost:8080\r\n\r\n";
 
 using Read = std::optional<std::variant<PageRequest, Refusal>>;
 
@@ -32,6 +32,8 @@ void expect_the_request(const Read& read, const std::string& what) {
   EXPECT_EQ(request.host, "localhost:8080") << what;
   EXPECT_EQ(request.fetch_site, "same-origin") << what;
   EXPECT_EQ(request.fetch_mode, "cors") << what;
+  EXPECT_EQ(request.query, "x=1") << what;
+  EXPECT_EQ(request.origin, "http://localhost:8080") << what;
 }
 
 TEST(RequestHead, IsTheSameInWhateverPiecesItComes) {

@@ -25,6 +25,10 @@ struct Mirror {
 
   json take(const LiveDocument& document) {
     const json change = json::parse(document.changes(cursor));
+    if (change.contains("run")) {
+      objects.clear();
+      path = fixes = json::array();
+    }
     for (const json& object : change["objects"]) objects[object["id"]] = object;
     if (change.contains("ids")) {
       std::map<std::uint64_t, json> living;
@@ -158,6 +162,57 @@ TEST(LiveDocument, AnObjectTellsItsPlaceAndItsHistory) {
   EXPECT_EQ(details["history"].front()[1], 1);
   EXPECT_EQ(details["history"].back()[1], 1000);
   EXPECT_FALSE(document.object(99));
+}
+
+TEST(LiveDocument, ABetterPictureOfAnObjectIsTold) {
+  LiveDocument document({"", true});
+  document.show_object(2, "JPEG one");  // it may come before the object
+  document.add(page_frame(1, 2));
+  Mirror page;
+  page.take(document);
+  EXPECT_FALSE(page.objects.at(1).contains("picture"));
+  const json first = page.objects.at(2)["picture"];
+  document.show_object(2, "JPEG two");
+  page.take(document);
+  EXPECT_NE(page.objects.at(2)["picture"], first);
+  EXPECT_EQ(*document.picture_of(2), "JPEG two");
+  EXPECT_EQ(document.picture_of(1), nullptr);
+}
+
+TEST(LiveDocument, WhatARunEndsWithIsShown) {
+  LiveDocument document({"", true});
+  document.add(page_frame(1, 3));
+  Mirror page;
+  page.take(document);
+  RunRecord run;
+  run.objects = {page_object(1), page_object(3)};
+  run.objects[0].hits = 77;
+  document.add(run);
+  page.take(document);
+  EXPECT_EQ(page.objects.size(), 2U);
+  EXPECT_EQ(page.objects.at(1)["hits"], 77);
+  EXPECT_EQ(document.record().objects.size(), 2U);
+}
+
+TEST(LiveDocument, AReplayThatBeginsAnewIsToldAsANewRunThatKeepsItsTargets) {
+  LiveDocument document({"the run", false});
+  RunRecord run;
+  run.targets = {{1.0, 2.0}};
+  document.add(run);
+  document.add(page_frame(1, 3));
+  document.end();
+  Mirror page;
+  page.take(document);
+  document.begin_anew();
+  document.add(page_frame(1, 1));
+  const json change = page.take(document);
+  EXPECT_EQ(change["run"]["name"], "the run");  // at which a page forgets all that it knew
+  EXPECT_EQ(change["targets"].size(), 1U);
+  EXPECT_FALSE(change.contains("ended"));
+  EXPECT_EQ(change["objects"].size(), 1U);
+  EXPECT_EQ(page.objects.size(), 1U);
+  EXPECT_EQ(change["path"].size(), 1U);
+  EXPECT_EQ(change["fixes"].size(), 1U);
 }
 
 }  // namespace

@@ -120,13 +120,17 @@ TEST_F(Site, GivesTheNewestPictureWithItsBoxes) {
 }
 
 TEST(HostilePages, DamagedRequestsAreAnsweredSafely) {
-  std::string bytes =
-      "GET /objects/17 localhost:8080 cross-site navigate https://a/{z}/{x}/{y} token=0123456789abcdee "
-      "geoloc_8080=0123456789abcdee "
-      "Bearer_0123456789abcdee http://localhost:8080";
-  for (std::size_t i = 0; i < 4000; ++i) {
-    bytes[(i * 7919) % bytes.size()] = static_cast<char>(i * 31);
+  for (std::string bytes :
+       {"GET /objects/17 localhost:8080 cross-site navigate https://a/{z}/{x}/{y} token=0123456789abcdee "
+        "geoloc_8080=0123456789abcdee Bearer_0123456789abcdee http://localhost:8080",
+        "POST /objects/17/note localhost same-origin cors - name=a%20b&verdict=confirmed - - "
+        "http://localhost near",
+        "POST /playback localhost same-origin cors - paused=1&speed=2&at=150000 - - http://localhost near"}) {
     hostile::ask_for_pages(bytes);
+    for (std::size_t i = 0; i < 4000; ++i) {
+      bytes[(i * 7919) % bytes.size()] = static_cast<char>(i * 31);
+      hostile::ask_for_pages(bytes);
+    }
   }
 }
 

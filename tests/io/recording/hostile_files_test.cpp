@@ -83,6 +83,14 @@ TEST(HostileFiles, Truth) {
                   &hostile::read_any_truth);
 }
 
+TEST(HostileFiles, Notes) {
+  damage_and_read(
+      R"({"time_us":1795313538548799,"object":17,"coordinates":[-43.13,-22.9],"name":"van","verdict":)"
+      R"("confirmed"})"
+      "\n",
+      &hostile::read_any_notes);
+}
+
 TEST(HostileFiles, Priors) {
   damage_and_read(
       R"({"features":[{"geometry":{"coordinates":[-43.13,-22.9]},"properties":{"id":"a","sigma_m":0.1}}],)"

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "support/temporary_folder.hpp"
@@ -69,6 +70,43 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   EXPECT_EQ(recording.truth[0].height_above_home_m, -1.25);
   EXPECT_EQ(recording.class_names.at(0), "target");
   EXPECT_EQ(recording.config_json, "{}\n");
+}
+
+TEST(Recording, KeepsNotesAndPicturesOfObjects) {
+  const testing::TemporaryFolder temporary;
+  const auto folder = temporary.path() / "run";
+  const NotedObject noted{at_us(1'000'150), 17, {-22.9, -43.1}, {"red \"van\"\n", Verdict::kConfirmed}};
+  const std::string jpeg = "\xff\xd8\xff and so on";
+  {
+    RecordingWriter writer(folder);
+    writer.write_camera(CameraConfig{});
+    writer.add_telemetry(at_us(1'000'000), kHeartbeat.data(), kHeartbeat.size());
+    writer.add_note(noted);
+    writer.write_picture(17, "\xff\xd8\xff worse");
+    writer.write_picture(17, jpeg);
+    writer.write_picture(18, "no JPEG");
+    writer.finish();
+  }
+  append_notes(folder, {{at_us(1'000'160), 18, {-22.9, -43.1}, {"", Verdict::kDismissed}}});
+  const Recording recording = read_recording(folder);
+  ASSERT_EQ(recording.notes.size(), 2U);
+  EXPECT_EQ(recording.notes[0].at, noted.at);
+  EXPECT_EQ(recording.notes[0].object_id, 17U);
+  EXPECT_EQ(recording.notes[0].position.longitude_deg, -43.1);
+  EXPECT_EQ(recording.notes[0].note, noted.note);
+  EXPECT_EQ(recording.notes[1].note.verdict, Verdict::kDismissed);
+  ASSERT_EQ(recording.pictures.size(), 1U);
+  EXPECT_EQ(recording.pictures.at(17), jpeg);
+}
+
+TEST(Recording, ANoteThatWasCutOffCostsNoLaterOne) {
+  const testing::TemporaryFolder temporary;
+  temporary.write("notes.jsonl", R"({"time_us":1,"obj)");
+  append_notes(temporary.path(), {{at_us(2), 18, {-22.9, -43.1}, {"van", Verdict::kNone}}});
+  std::ifstream input(temporary.path() / "notes.jsonl");
+  std::size_t skipped = 0;
+  EXPECT_EQ(read_notes(input, skipped).size(), 1U);
+  EXPECT_EQ(skipped, 1U);
 }
 
 TEST(Recording, WriterRefusesAFolderInUse) {

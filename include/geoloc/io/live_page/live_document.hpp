@@ -5,7 +5,9 @@
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -42,8 +44,18 @@ class LiveDocument {
   void add(const OutputFrame& frame);
   void add(const LiveStatus& status);
   void add(const RunRecord& run);
+  /// Changes an operator's note of a confirmed object. nullopt for an unknown one.
+  std::optional<NotedObject> note(std::uint64_t id, const ObjectNote& note);
+  /// A better picture of an object, a JPEG; the object may be unknown as yet.
+  void show_object(std::uint64_t id, std::string jpeg);
+  /// nullptr where there is none.
+  std::shared_ptr<const std::string> picture_of(std::uint64_t id) const;
   /// A newer picture of the video can be fetched.
   void announce_picture(std::uint64_t number);
+  /// Where a replay is (ReplayControl::json()).
+  void show_playback(const std::string& json);
+  /// Forgets all that frames and runs told, but not the true targets: a replay begins again.
+  void begin_anew();
   /// The run is over; its last state can still be viewed.
   void end();
 
@@ -58,6 +70,12 @@ class LiveDocument {
 
   /// JSON of one object: its coordinates in several notations, and its history. nullopt for an unknown id.
   std::optional<std::string> object(std::uint64_t id) const;
+
+  /// The run as files tell it, without its raw fixes. The trajectory is that of the last run added.
+  RunRecord record() const;
+
+  /// Grows with every change.
+  std::uint64_t revision() const;
 
   /// Wakes all waiting threads, and keeps them from waiting again.
   void close();
@@ -83,6 +101,10 @@ class LiveDocument {
     std::uint64_t seen_in = 0;   // the update it was last part of
     std::vector<Moment> history;
   };
+  struct Picture {
+    std::shared_ptr<const std::string> jpeg;
+    std::uint64_t number = 0;
+  };
   struct Fix {
     Eigen::Vector2d position_in_enu;
     double confidence;
@@ -90,6 +112,8 @@ class LiveDocument {
   };
   using Objects = std::map<std::uint64_t, Entry>;
 
+  void write_json(std::uint64_t id, Entry& entry) const;
+  void remove_objects(const std::function<bool(const Entry&)>& is_gone);
   void add_objects(const OutputFrame& frame);
   void add_object(const ObjectReport& report, bool is_confirmed, HostTime at);
   static void note_moment(Entry& entry, HostTime at);
@@ -109,6 +133,10 @@ class LiveDocument {
   std::uint64_t removed_revision_ = 0;  // of the last removal
   std::map<std::string, Part> parts_;   // by their names in the JSON
   Objects objects_;
+  std::map<std::uint64_t, Picture> pictures_;  // by object
+  std::uint64_t pictures_made_ = 0;
+  RunRecord run_;  // without objects
+  HostTime newest_at_{};
   std::vector<Eigen::Vector2d> path_;
   std::uint64_t path_epoch_ = 1;
   std::deque<Fix> fixes_;

@@ -9,6 +9,8 @@
 #include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/live_page/live_site.hpp"
 #include "geoloc/io/live_page/picture_board.hpp"
+#include "geoloc/io/live_page/replay_control.hpp"
+#include "geoloc/io/output/note_book.hpp"
 #include "geoloc/io/output/sink.hpp"
 
 namespace geoloc::io {
@@ -23,7 +25,9 @@ class LivePage {
   /// std::runtime_error that names the endpoint, the reason and the remedy, and std::invalid_argument naming
   /// every problem of the configuration.
   LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
-           const std::vector<std::string>& class_names, const std::string& token = {});
+           const std::vector<std::string>& class_names, const std::string& token = {},
+           std::shared_ptr<NoteBook> notes = std::make_shared<NoteBook>(),
+           std::shared_ptr<ReplayControl> playback = nullptr);
   /// Ends every connection at once.
   ~LivePage();
   LivePage(const LivePage&) = delete;
@@ -33,12 +37,19 @@ class LivePage {
   void add(const LiveStatus& status) { document_.add(status); }
   void add(const RunRecord& run) { document_.add(run); }
   void end() { document_.end(); }
+  void begin_anew() { document_.begin_anew(); }
+  void show_playback(const std::string& json) { document_.show_playback(json); }
+
+  void show_object(std::uint64_t id, std::string jpeg) { document_.show_object(id, std::move(jpeg)); }
 
   bool wants_picture() const { return board_.wants_picture(); }
   void show(LivePicture picture) { document_.announce_picture(board_.show(std::move(picture))); }
 
   /// Where a browser on this computer finds it: "http://127.0.0.1:8080/".
   std::string url() const;
+
+  /// Where other devices find it that know this computer by `address`, unless a host was given: then by that.
+  std::string url_for_others(const std::string& address) const;
 
   /// What it asks for; empty where it asks for none.
   const std::string& token() const { return token_; }
@@ -47,8 +58,14 @@ class LivePage {
   bool is_open_to_network() const;
 
  private:
+  bool is_on_every_interface() const;
+  std::string url_of(const std::string& host) const;
+  bool note(std::uint64_t object_id, const ObjectNote& note);
+  PageActions actions(std::shared_ptr<ReplayControl> playback);
+
   HttpEndpoint endpoint_;
   std::string token_;
+  std::shared_ptr<NoteBook> notes_;
   LiveDocument document_;
   PictureBoard board_;
   LiveSite site_;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "geoloc/io/live_page/live_document.hpp"
 #include "geoloc/io/live_page/live_page_config.hpp"
 #include "geoloc/io/live_page/page_request.hpp"
 #include "geoloc/io/live_page/picture_board.hpp"
+#include "geoloc/io/live_page/replay_control.hpp"
 
 namespace geoloc::io {
 
@@ -26,12 +29,25 @@ std::vector<std::string> names_of_this_computer(const std::string& given_host);
 /// "17" of "/objects/17".
 std::optional<std::uint64_t> object_of_path(const std::string& path);
 
+/// "17" of "/objects/17/note" where `part` is "/note".
+std::optional<std::uint64_t> object_of_path(const std::string& path, std::string_view part);
+
+/// What pages may change, where they may. Functions that are missing are refused.
+struct PageActions {
+  /// False where there is no such object.
+  std::function<bool(std::uint64_t object_id, const ObjectNote& note)> note = {};
+  /// Of a replay.
+  std::function<void(const ReplayWish& wish)> play = {};
+};
+
+class RunFiles;
+
 /// The page's addresses: a request in, an answer out, without any input or output of its own. Thread-safe.
 class LiveSite {
  public:
   /// Document and board must outlive it. With a token, nothing is shown to those who do not have it.
   LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
-           std::vector<std::string> own_names, const std::string& token = {});
+           std::vector<std::string> own_names, const std::string& token = {}, PageActions actions = {});
   ~LiveSite();
   LiveSite(const LiveSite&) = delete;
   LiveSite& operator=(const LiveSite&) = delete;
@@ -43,12 +59,16 @@ class LiveSite {
 
  private:
   PageAnswer dispatch(const PageRequest& request) const;
+  PageAnswer change(const PageRequest& request) const;
+  PageAnswer take_note(const PageRequest& request) const;
 
   const LiveDocument& document_;
   PictureBoard& board_;
   std::vector<std::string> own_names_;
+  LivePageConfig config_;
+  PageActions actions_;
   std::unique_ptr<const PageAccess> access_;
-  std::string settings_json_;
+  std::unique_ptr<RunFiles> files_;
   Headers headers_;
 };
 

@@ -8,6 +8,7 @@
 
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/io/object_note.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
 
 namespace geoloc::io {
@@ -54,6 +55,7 @@ struct ObjectReport {
   ErrorEllipse ellipse;
   HeightReport height;
   std::optional<Course> course;  ///< of objects of moving classes
+  ObjectNote note;               ///< an operator's
 };
 
 HeightReport height_of(const Track& track, const Geolocator& geolocator);

@@ -13,9 +13,13 @@ inline constexpr const char* kConfigFile = "config.json";
 inline constexpr const char* kClassNamesFile = "class_names.json";
 inline constexpr const char* kCountsFile = "counts.json";
 inline constexpr const char* kTruthFile = "truth.geojson";
+inline constexpr const char* kNotesFile = "notes.jsonl";
 
-/// All of them; only the first three are in every recording.
+/// The folder of the objects' pictures, ID.jpg.
+inline constexpr const char* kPicturesFolder = "pictures";
+
+/// All of them but the pictures; only the first three are in every recording.
 inline constexpr std::array kRecordingFiles = {kTelemetryFile,  kFramesFile, kCameraFile, kConfigFile,
-                                               kClassNamesFile, kCountsFile, kTruthFile};
+                                               kClassNamesFile, kCountsFile, kTruthFile,  kNotesFile};
 
 }  // namespace geoloc::io

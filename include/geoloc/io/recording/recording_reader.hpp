@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
+#include "geoloc/io/object_note.hpp"
 #include "geoloc/io/recording/recording.hpp"
 #include "geoloc/io/recording/tlog.hpp"
 
@@ -23,9 +25,11 @@ struct Recording {
   Tlog telemetry;
   std::vector<RecordedFrame> frames;
   std::optional<std::string> config_json;
-  std::vector<std::string> class_names;  ///< by class id; empty where the recording has none
-  std::vector<TrueTarget> truth;         ///< empty where the recording has none
-  std::uint64_t frames_damaged = 0;      ///< that were left out
+  std::vector<std::string> class_names;           ///< by class id; empty where the recording has none
+  std::vector<TrueTarget> truth;                  ///< empty where the recording has none
+  std::vector<NotedObject> notes;                 ///< what people said of the objects
+  std::map<std::uint64_t, std::string> pictures;  ///< JPEGs of the objects by their ids
+  std::uint64_t frames_damaged = 0;               ///< that were left out
   std::size_t skipped_lines = 0;
 };
 

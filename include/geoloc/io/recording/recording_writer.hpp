@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/io/log_file.hpp"
+#include "geoloc/io/object_note.hpp"
 #include "geoloc/io/recording/recording.hpp"
 
 namespace geoloc::io {
@@ -47,6 +49,10 @@ class RecordingWriter {
   /// `frame`: one whole MAVLink frame as received.
   void add_telemetry(HostTime received_at, const std::uint8_t* frame, std::size_t size);
   void add_frame(const RecordedFrame& frame);
+  /// What a person said of an object.
+  void add_note(const NotedObject& noted);
+  /// An object's best picture so far, a JPEG; replaces the one before.
+  void write_picture(std::uint64_t object_id, const std::string& jpeg);
 
   /// What was added survives a power cut from now on. It may take as long as the disk does.
   void sync();
@@ -69,6 +75,7 @@ class RecordingWriter {
   Place place_;
   LogFile telemetry_;
   LogFile frames_;
+  std::optional<LogFile> notes_;  // most flights have none
   std::uint64_t telemetry_records_ = 0;
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The selected object: its position in four notations, and the history of its estimate.
-import { clock, element, number, sigmaText } from "./panels.js";
+import { Notes } from "./notes.js";
+import { nameOf, showPicture } from "./object_list.js";
+import { clock, element, figures, number, sigmaText } from "./panels.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const NOTATIONS = [["degrees", "Degrees"], ["dms", "DMS"], ["utm", "UTM"], ["mgrs", "MGRS"]];
-const CHART = { width: 380, height: 84, left: 46, bottom: 16, top: 8 };
+const CHART = { height: 96, left: 62, bottom: 20, top: 10 };
 
 function svg(tag, attributes, text) {
   const made = document.createElementNS(SVG, tag);
@@ -38,9 +40,9 @@ function placeList() {
 }
 
 /** Sigma over time, logarithmic: it falls by powers of ten. */
-function sigmaChart(history) {
+function sigmaChart(history, width) {
   const points = history.filter(([, , sigma]) => sigma > 0);
-  const { width, height, left, bottom, top } = CHART;
+  const { height, left, bottom, top } = CHART;
   const chart = svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": "Sigma over time" });
   if (points.length < 2) return chart;
   const [begin, end] = [points[0][0], points.at(-1)[0]];
@@ -60,11 +62,15 @@ function sigmaChart(history) {
   return chart;
 }
 
-function facts(object) {
-  const entries = [
+/** `ways`: named directions to the object, as texts. */
+function facts(object, ways) {
+  return [
+    ...ways,
     ["σ major, minor", `${sigmaText(object.major_m)}, ${sigmaText(object.minor_m)}`],
     ["Major axis", `${number(object.azimuth_deg, 0)}° from north`],
-    ["Height above home", `${number(object.height_m, 2)} m${object.sigma_height_m === undefined ? "" : ` ± ${sigmaText(object.sigma_height_m)}`}`],
+    ["Object's height", `${number(object.height_m, 2)} m${object.sigma_height_m === undefined ? "" : ` ± ${sigmaText(object.sigma_height_m)}`}`],
+    ...(object.height_msl_m === undefined ? [] : [["Above sea level", `${number(object.height_msl_m, 1)} m`]]),
+    ["Class", object.name],
     ["Confidence", `${number(100 * object.confidence, 1)} %`],
     ...(object.speed_mps === undefined ? [] : [
       ["Speed, course", `${number(object.speed_mps, 1)} m/s, ${number(object.course_deg, 0)}°`],
@@ -73,8 +79,6 @@ function facts(object) {
     ["First seen", `${clock(object.first_seen)} UTC`],
     ["Last seen", `${clock(object.last_seen)} UTC`],
   ];
-  return element("dl", { className: "figures" }, ...entries.map(([name, value]) =>
-    element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }))));
 }
 
 export class Details {
@@ -85,8 +89,11 @@ export class Details {
     close.addEventListener("click", onClose);
     this.title = element("h2");
     this.place = placeList();
-    this.rest = element("div");
-    section.replaceChildren(element("header", {}, this.title, close), this.place, this.rest);
+    this.notes = new Notes();
+    this.picture = element("img", { className: "picture", alt: "The object, cut from the video", hidden: true });
+    this.figures = element("dl", { className: "figures" });
+    this.chart = element("div");
+    section.replaceChildren(element("header", {}, this.title, close), this.picture, this.notes.section, this.place, this.figures, this.chart);
   }
 
   hide() {
@@ -95,18 +102,26 @@ export class Details {
   }
 
   /** `object` is the list's entry. Asks the server for the rest if it has changed. */
-  async show(object) {
-    const version = `${object.id} ${object.hits} ${object.at} ${object.major_m}`;
+  async show(object, ways) {
+    this.notes.show(object);
+    showPicture(this.picture, object);
+    const version = `${object.id} ${object.hits} ${object.at} ${object.major_m} ${nameOf(object)}`;
+    if (this.current?.id === object.id) figures(this.figures, facts(this.current, ways));
     if (version === this.shown) return;
     this.shown = version;
     const answer = await fetch(`objects/${object.id}`, { cache: "no-store" }).catch(() => null);
     if (!answer?.ok || this.shown !== version) return;
     const { object: current, coordinates, history } = await answer.json();
-    this.title.textContent = `${current.id} · ${current.name}${current.confirmed ? "" : " (tentative)"}`;
+    this.current = current;
+    this.title.textContent = `${current.id} · ${nameOf(current)}${current.confirmed ? "" : " (tentative)"}`;
     [...this.place.querySelectorAll("dd")].forEach((place, i) => {
       place.textContent = coordinates[NOTATIONS[i][0]];
     });
-    this.rest.replaceChildren(facts(current), sigmaChart(history));
+    const isOther = this.section.hidden || this.seen !== current.id;
+    this.seen = current.id;
     this.section.hidden = false;
+    figures(this.figures, facts(current, ways));
+    this.chart.replaceChildren(sigmaChart(history, Math.max(240, this.chart.clientWidth)));
+    if (isOther) this.section.scrollIntoView({ block: "nearest" }); // it may be far above the list
   }
 }

@@ -3,6 +3,8 @@
 import { roundStep } from "./projection.js";
 
 const FADE_MS = 45000; // a raw fix fades over this time
+const LABEL_HALF_PX = 26;
+const LABEL_TOP_PX = 20;
 const FAINTEST = 0.12;
 const SIGMAS = 2;
 const LEAST_ELLIPSE_PX = 7;
@@ -20,11 +22,11 @@ export const LAYERS = [
 
 export function drawGrid(pen) {
   const { context, viewport, colours } = pen;
-  const step = roundStep(72 / viewport.scale);
+  const step = roundStep(90 / viewport.scale);
   const [west, north] = viewport.toGround([0, 0]);
   const [east, south] = viewport.toGround([viewport.width, viewport.height]);
-  context.lineWidth = 1;
-  context.font = `11px ${pen.font}`;
+  context.lineWidth = pen.weight;
+  context.font = `14px ${pen.font}`;
   const digits = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const line = (value, from, to, label) => {
     context.strokeStyle = Math.abs(value) < step / 2 ? colours["grid-strong"] : colours.grid;
@@ -37,14 +39,15 @@ export function drawGrid(pen) {
   context.textBaseline = "bottom";
   for (let value = Math.ceil(west / step) * step; value <= east; value += step) {
     const x = crisp(viewport.toScreen([value, 0])[0]);
+    if (x < LABEL_HALF_PX) continue; // its label would be cut off
     line(value, [x, 0], [x, viewport.height], [text(value, digits, "E"), x, viewport.height - 3]);
   }
   context.textAlign = "left";
   context.textBaseline = "middle";
   for (let value = Math.ceil(south / step) * step; value <= north; value += step) {
     const y = crisp(viewport.toScreen([0, value])[1]);
-    if (y > viewport.height - 44) continue; // the scale bar is there
-    line(value, [0, y], [viewport.width, y], [text(value, digits, "N"), 5, y - 7]);
+    if (y > viewport.height - 50 || y < LABEL_TOP_PX) continue; // the scale bar is there
+    line(value, [0, y], [viewport.width, y], [text(value, digits, "N"), 5, y - 9]);
   }
 }
 
@@ -70,7 +73,7 @@ export function drawPath(pen, path, vehicle) {
   const { context, viewport, colours } = pen;
   outline(context, (vehicle ? [...path, vehicle] : path).map((point) => viewport.toScreen(point)));
   context.lineJoin = "round";
-  context.lineWidth = 1.6;
+  context.lineWidth = 1.6 * pen.weight;
   context.strokeStyle = colours.trajectory;
   context.stroke();
 }
@@ -83,12 +86,12 @@ export function drawFootprint(pen, corners) {
   context.fillStyle = colours.footprint;
   context.fill();
   context.globalAlpha = 0.9;
-  context.lineWidth = 1.3;
+  context.lineWidth = 1.3 * pen.weight;
   context.strokeStyle = colours.footprint;
   context.stroke();
   context.globalAlpha = 1;
   // The image's top edge is drawn heavier, to show its orientation on the ground.
-  context.lineWidth = 3;
+  context.lineWidth = 3 * pen.weight;
   strokeLine(context, viewport.toScreen(corners[0]), viewport.toScreen(corners[1]));
 }
 
@@ -99,9 +102,9 @@ export function drawFixes(pen, fixes, now) {
     const [x, y] = viewport.toScreen([east, north]);
     if (x < -4 || y < -4 || x > viewport.width + 4 || y > viewport.height + 4) continue;
     const age = Math.min(1, Math.max(0, (now - at) / FADE_MS));
-    context.globalAlpha = 0.75 + age * (FAINTEST - 0.75);
+    context.globalAlpha = Math.min(1, pen.weight * (0.75 + age * (FAINTEST - 0.75)));
     context.beginPath();
-    context.arc(x, y, 2, 0, 2 * Math.PI);
+    context.arc(x, y, 2 * pen.weight, 0, 2 * Math.PI);
     context.fill();
   }
   context.globalAlpha = 1;
@@ -110,7 +113,7 @@ export function drawFixes(pen, fixes, now) {
 export function drawTargets(pen, targets) {
   const { context, viewport, colours } = pen;
   context.strokeStyle = colours.target;
-  context.lineWidth = 1.4;
+  context.lineWidth = 1.4 * pen.weight;
   for (const target of targets) {
     const [x, y] = viewport.toScreen(target);
     context.strokeRect(x - 7, y - 7, 14, 14);
@@ -138,7 +141,7 @@ export function drawEllipse(pen, object, factor) {
   context.globalAlpha = 0.13;
   context.fill();
   context.globalAlpha = 0.75;
-  context.lineWidth = 1.1;
+  context.lineWidth = 1.1 * pen.weight;
   context.strokeStyle = colour;
   context.setLineDash(object.confirmed ? [] : [4, 3]);
   context.stroke();
@@ -152,13 +155,19 @@ export function drawObject(pen, object, isSelected) {
   if (isSelected) {
     context.beginPath();
     context.arc(x, y, 11, 0, 2 * Math.PI);
-    context.lineWidth = 2.5;
+    context.lineWidth = 2.5 * pen.weight;
     context.strokeStyle = colours.ink;
     context.stroke();
   }
   context.beginPath();
-  context.lineWidth = 1.5;
-  if (object.confirmed) {
+  context.lineWidth = 1.5 * pen.weight;
+  if (object.verdict === "dismissed") {
+    for (const turn of [-1, 1]) {
+      context.moveTo(x - 5, y - 5 * turn);
+      context.lineTo(x + 5, y + 5 * turn);
+    }
+    context.strokeStyle = colours.soft;
+  } else if (object.confirmed) {
     context.arc(x, y, 3.8, 0, 2 * Math.PI);
     context.fillStyle = colours.object;
     context.strokeStyle = colours.map;
@@ -174,57 +183,41 @@ export function drawObject(pen, object, isSelected) {
 /** Ids beside the objects, where there is room. */
 export function drawLabels(pen, objects) {
   const { context, viewport, colours } = pen;
-  context.font = `600 11px ${pen.font}`;
+  context.font = `600 14px ${pen.font}`;
   context.textAlign = "left";
   context.textBaseline = "middle";
-  context.lineWidth = 3;
+  context.lineWidth = 3 * pen.weight;
   const taken = [];
   for (const object of objects) {
     const [x, y] = viewport.toScreen(object.at);
     const label = String(object.id);
-    const box = [x + 7, y - 16, x + 9 + 7 * label.length, y - 4];
+    const box = [x + 7, y - 18, x + 9 + 9 * label.length, y - 3];
     if (taken.some((other) => box[0] < other[2] && other[0] < box[2] && box[1] < other[3] && other[1] < box[3])) continue;
     taken.push(box);
     context.strokeStyle = colours.map;
-    context.strokeText(label, box[0], y - 10);
+    context.strokeText(label, box[0], y - 11);
     context.fillStyle = colours.ink;
-    context.fillText(label, box[0], y - 10);
+    context.fillText(label, box[0], y - 11);
   }
-}
-
-export function drawVehicle(pen, view) {
-  const { context, viewport, colours } = pen;
-  const [x, y] = viewport.toScreen(view.vehicle);
-  context.save();
-  context.translate(x, y);
-  context.rotate(view.yaw_deg * Math.PI / 180);
-  outline(context, [[0, -12], [8, 9], [0, 4.5], [-8, 9]]);
-  context.closePath();
-  context.fillStyle = colours.vehicle;
-  context.strokeStyle = colours.map;
-  context.lineWidth = 2;
-  context.stroke();
-  context.fill();
-  context.restore();
 }
 
 export function drawScaleBar(pen) {
   const { context, viewport, colours } = pen;
   const metres = roundStep(70 / viewport.scale);
   const length = metres * viewport.scale;
-  const [x, y] = [12, viewport.height - 26];
+  const [x, y] = [12, viewport.height - 30];
   outline(context, [[x, y - 5], [x, y], [x + length, y], [x + length, y - 5]]);
   context.lineJoin = "miter";
-  context.lineWidth = 5;
+  context.lineWidth = 5 * pen.weight;
   context.strokeStyle = colours.map;
   context.stroke();
-  context.lineWidth = 2;
+  context.lineWidth = 2 * pen.weight;
   context.strokeStyle = colours.ink;
   context.stroke();
-  context.font = `600 12px ${pen.font}`;
+  context.font = `600 14px ${pen.font}`;
   context.textAlign = "left";
   context.textBaseline = "bottom";
-  context.lineWidth = 3;
+  context.lineWidth = 3 * pen.weight;
   context.strokeStyle = colours.map;
   const label = metres >= 1000 ? `${metres / 1000} km` : metres < 1 ? `${Math.round(metres * 100)} cm` : `${metres} m`;
   context.strokeText(label, x + 5, y - 3);

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map: a canvas with a metric grid that is moved and zoomed by mouse, touch and keys.
 import * as layers from "./layers.js";
-import { Viewport, toDegrees } from "./projection.js";
+import * as marks from "./marks.js";
+import { Viewport, toDegrees, typical } from "./projection.js";
 
-const REACH_PX = 18; // of a click
+const REACH_PX = 22; // of a tap, which may be with gloves
 const KEY_STEP_PX = 60;
-const TOOLS_PX = 56; // the buttons at the right edge
+const TOOLS_PX = 68; // the buttons at the right edge
 const COLOURS = ["map", "grid", "grid-strong", "ink", "soft", "object", "tentative", "raw", "trajectory", "footprint",
   "target", "vehicle"];
+// A corner of the image near the horizon lies far away, and would make all else small.
+const FARTHEST_CORNER = 8; // times the vehicle's height
+const FEW_OBJECTS = 3; // one of so few cannot be told to be false by the others
 
 export class GroundMap extends EventTarget {
   /** `visible(key)`: whether a layer is drawn. `background(pen)`: draws what is below all layers. */
@@ -20,10 +24,11 @@ export class GroundMap extends EventTarget {
     this.viewport = new Viewport();
     this.mode = "fit"; // "fit": all in view; "follow": the vehicle stays in the middle; "free"
     this.selected = null;
+    this.own = null; // where the reader stands [m]
+    this.onTap = null; // takes the next tap in place of the objects
     this.factor = 1;
     this.pointers = new Map();
     this.readColours();
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.readColours());
     new ResizeObserver(() => this.resize()).observe(canvas);
     this.listen();
   }
@@ -31,6 +36,7 @@ export class GroundMap extends EventTarget {
   readColours() {
     const style = getComputedStyle(document.documentElement);
     this.colours = Object.fromEntries(COLOURS.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+    this.weight = Number(style.getPropertyValue("--weight")) || 1;
     this.font = getComputedStyle(document.body).fontFamily;
     this.redraw();
   }
@@ -71,9 +77,18 @@ export class GroundMap extends EventTarget {
     const { model, viewport } = this;
     if (this.mode === "follow" && model.view) viewport.centre = model.view.vehicle;
     if (this.mode !== "fit") return;
-    const points = [...model.path, ...model.targets, ...model.confirmed().map((object) => object.at)];
-    if (model.view) points.push(model.view.vehicle, ...(model.view.footprint ?? []));
-    viewport.fit(points, TOOLS_PX);
+    const seen = this.cornersInView();
+    const flown = typical([...model.path, ...(model.view ? [model.view.vehicle] : [])]);
+    const objects = model.confirmed().filter((object) => object.verdict !== "dismissed").map((object) => object.at);
+    const found = objects.length > FEW_OBJECTS ? typical(objects) : typical([...objects, ...seen, ...flown]);
+    viewport.fit([...flown, ...seen, ...found, ...typical(model.targets)], TOOLS_PX);
+  }
+
+  cornersInView() {
+    const { view } = this.model;
+    if (!view?.footprint) return [];
+    const reach = FARTHEST_CORNER * Math.max(1, view.height_m);
+    return view.footprint.filter(([x, y]) => Math.hypot(x - view.vehicle[0], y - view.vehicle[1]) <= reach);
   }
 
   draw() {
@@ -81,7 +96,7 @@ export class GroundMap extends EventTarget {
     this.aim();
     const context = this.canvas.getContext("2d");
     const ratio = this.canvas.width / Math.max(1, viewport.width);
-    const pen = { context, viewport, colours: this.colours, font: this.font };
+    const pen = { context, viewport, colours: this.colours, font: this.font, weight: this.weight };
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.fillStyle = this.colours.map;
     context.fillRect(0, 0, viewport.width, viewport.height);
@@ -92,7 +107,8 @@ export class GroundMap extends EventTarget {
     if (this.visible("path")) layers.drawPath(pen, model.path, model.view?.vehicle);
     if (this.visible("targets")) layers.drawTargets(pen, model.targets);
     this.drawObjects(pen, now);
-    if (model.view) layers.drawVehicle(pen, model.view);
+    if (this.own) marks.drawOwnPlace(pen, this.own);
+    if (model.view) marks.drawVehicle(pen, model.view);
     layers.drawScaleBar(pen);
   }
 
@@ -103,14 +119,17 @@ export class GroundMap extends EventTarget {
       this.factor = factor;
       this.dispatchEvent(new Event("exaggeration"));
     }
-    if (this.visible("ellipses")) for (const object of shown) layers.drawEllipse(pen, object, factor);
+    if (this.visible("ellipses")) for (const object of shown.filter((one) => one.verdict !== "dismissed")) layers.drawEllipse(pen, object, factor);
     if (this.visible("fixes")) layers.drawFixes(pen, this.model.fixes, now);
-    for (const object of shown) layers.drawObject(pen, object, object.id === this.selected);
+    for (const object of shown) {
+      if (this.model.isNew(object.id)) marks.drawNew(pen, object);
+      layers.drawObject(pen, object, object.id === this.selected);
+    }
     layers.drawLabels(pen, shown.filter((object) => object.confirmed || object.id === this.selected));
   }
 
   shownObjects() {
-    return [...this.model.objects.values()].filter((object) => this.visible(object.confirmed ? "objects" : "tentative"));
+    return this.model.shown().filter((object) => this.visible(object.confirmed ? "objects" : "tentative"));
   }
 
   /** A small picture of a layer's mark, for the legend. */
@@ -123,7 +142,7 @@ export class GroundMap extends EventTarget {
     canvas.height = viewport.height * ratio;
     const context = canvas.getContext("2d");
     context.scale(ratio, ratio);
-    layers.drawSymbol({ context, viewport, colours: this.colours, font: this.font }, key);
+    layers.drawSymbol({ context, viewport, colours: this.colours, font: this.font, weight: 1 }, key);
     return canvas;
   }
 
@@ -163,7 +182,8 @@ export class GroundMap extends EventTarget {
       event.preventDefault();
       this.zoom(Math.exp(-0.0016 * Math.max(-300, Math.min(300, event.deltaY))), [event.offsetX, event.offsetY]);
     }, { passive: false });
-    canvas.addEventListener("keydown", (event) => this.key(event));
+    canvas.addEventListener("keydown", (event) => this.key(event, true));
+    document.addEventListener("keydown", (event) => this.key(event, false));
   }
 
   press(event) {
@@ -195,10 +215,15 @@ export class GroundMap extends EventTarget {
   release(event) {
     const isClick = event.type === "pointerup" && this.pointers.size === 1 && this.travelled < 4;
     this.pointers.delete(event.pointerId);
-    if (isClick) this.select(this.objectAt([event.offsetX, event.offsetY]));
+    if (!isClick) return;
+    const pixel = [event.offsetX, event.offsetY];
+    if (this.onTap) this.onTap(pixel);
+    else this.select(this.objectAt(pixel));
   }
 
-  key(event) {
+  /** The arrows scroll the page unless the map is in focus; all other keys work everywhere but in fields. */
+  key(event, isInMap) {
+    if (event.defaultPrevented || (!isInMap && event.target.closest?.("input, select, textarea, dialog"))) return;
     const actions = {
       ArrowLeft: () => this.pan(KEY_STEP_PX, 0),
       ArrowRight: () => this.pan(-KEY_STEP_PX, 0),
@@ -211,7 +236,7 @@ export class GroundMap extends EventTarget {
       Escape: () => this.select(null),
     };
     const action = actions[event.key.length === 1 ? event.key.toLowerCase() : event.key];
-    if (!action || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (!action || (event.key.startsWith("Arrow") && !isInMap) || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
     action();
   }

@@ -5,10 +5,12 @@ const MOST_FIXES = 3000;
 const SILENCE_MS = 4000; // the server sends something every second
 const HIDDEN_MS = 10000; // a hidden page gives its place to others
 const RETRY_MS = 3000;
+const NEW_MS = 15000; // an object is marked as new for this long
 
 export class Model extends EventTarget {
   constructor() {
     super();
+    this.filter = { class: "", sigma_m: Infinity };
     this.reset();
     this.connection = "connecting";
     this.heardAt = performance.now();
@@ -23,21 +25,23 @@ export class Model extends EventTarget {
     this.estimator = null;
     this.targets = [];
     this.picture = 0;
+    this.playback = null;
     this.objects = new Map();
+    this.confirmedAt = new Map(); // by id, in the page's time; objects that were there before it have none
     this.path = [];
     this.fixes = [];
   }
 
-  /** Applies the changes that the server sends. */
+  /** Applies the changes that the server sends. Returns the objects that were confirmed by them. */
   apply(change) {
     if (change.run) {
       this.reset();
       this.run = change.run;
     }
-    for (const key of ["anchor", "ended", "status", "view", "estimator", "targets", "picture"]) {
+    for (const key of ["anchor", "ended", "status", "view", "estimator", "targets", "picture", "playback"]) {
       if (key in change) this[key] = change[key];
     }
-    for (const object of change.objects) this.objects.set(object.id, object);
+    const confirmed = this.takeObjects(change.objects, change.run || change.playback?.seeking ? -Infinity : performance.now());
     if (change.ids) {
       const living = new Set(change.ids);
       for (const id of this.objects.keys()) if (!living.has(id)) this.objects.delete(id);
@@ -46,6 +50,25 @@ export class Model extends EventTarget {
     this.path.push(...change.path);
     this.fixes.push(...change.fixes);
     if (this.fixes.length > MOST_FIXES) this.fixes.splice(0, this.fixes.length - MOST_FIXES);
+    return change.run || this.playback?.seeking ? [] : confirmed;
+  }
+
+  takeObjects(objects, now) {
+    const confirmed = objects.filter((object) => object.confirmed && !this.confirmedAt.has(object.id));
+    for (const object of confirmed) this.confirmedAt.set(object.id, now);
+    for (const object of objects) this.objects.set(object.id, object);
+    return confirmed;
+  }
+
+  isNew(id) {
+    return performance.now() - (this.confirmedAt.get(id) ?? -Infinity) < NEW_MS;
+  }
+
+  /** The objects that the filter lets through. */
+  shown() {
+    const { filter } = this;
+    return [...this.objects.values()].filter((object) => (filter.class === "" || object.name === filter.class) &&
+      (filter.sigma_m === Infinity || (object.major_m ?? Infinity) <= filter.sigma_m));
   }
 
   confirmed() {
@@ -72,8 +95,9 @@ export function connect(model) {
     model.heardAt = performance.now();
     source = new EventSource("events");
     source.onmessage = (event) => {
-      model.apply(JSON.parse(event.data));
+      const confirmed = model.apply(JSON.parse(event.data));
       heard();
+      if (confirmed.length > 0) model.dispatchEvent(new CustomEvent("news", { detail: confirmed }));
       model.dispatchEvent(new Event("change"));
     };
     source.addEventListener("alive", heard);

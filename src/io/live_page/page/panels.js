@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lists beside the map. Names come from models and streams and may contain anything, so they are only ever set as
+// The figures beside the map. Names come from models and streams and may contain anything, so they are only ever set as
 // text.
-
-const MOST_ROWS = 300;
+import { explain } from "./meanings.js";
 
 export function element(tag, properties = {}, ...children) {
   const made = Object.assign(document.createElement(tag), properties);
@@ -24,9 +23,25 @@ export function clock(ms) {
   return Number.isFinite(ms) ? new Date(ms).toISOString().slice(11, 19) : "–";
 }
 
-function figures(list, entries) {
-  list.replaceChildren(...entries.map(([name, value]) =>
-    element("div", {}, element("dt", { textContent: name }), element("dd", { textContent: value }))));
+/** "NE 45°, 120 m". */
+export function wayText({ azimuth_deg, distance_m }) {
+  const point = ["N", "NE", "E", "SE", "S", "SW", "W", "NW"][Math.round(azimuth_deg / 45) % 8];
+  const distance = distance_m < 10 ? `${number(distance_m, 1)} m`
+    : distance_m < 10000 ? `${number(distance_m, 0)} m` : `${number(distance_m / 1000, 1)} km`;
+  return `${point} ${number(Math.round(azimuth_deg) % 360, 0)}°, ${distance}`;
+}
+
+/** Sets the texts of a list of named figures. What is there stays, so that a finger on it does not lose it. */
+export function figures(list, entries) {
+  const names = entries.map(([name]) => name);
+  const shown = [...list.querySelectorAll("dt")].map((dt) => dt.textContent);
+  if (names.join() !== shown.join()) {
+    list.replaceChildren(...names.map((name) =>
+      explain(element("div", {}, element("dt", { textContent: name }), element("dd")), name)));
+  }
+  list.querySelectorAll("dd").forEach((dd, i) => {
+    if (dd.textContent !== entries[i][1]) dd.textContent = entries[i][1];
+  });
 }
 
 export function showLights(list, model) {
@@ -59,9 +74,10 @@ export function trouble(model) {
 
 export function showRates(card, list, { status, view }) {
   card.hidden = !status && !view;
-  const height = [["Height above home", `${number(view?.height_m, 1)} m`], ["Heading", `${number((view?.yaw_deg + 360) % 360, 0)}°`]];
-  figures(list, !status ? height : [
-    ...height,
+  const own = [["Vehicle's height", `${number(view?.height_m, 1)} m`],
+    ["Heading", `${number(Math.round(view?.yaw_deg + 360) % 360, 0)}°`]];
+  figures(list, !status ? own : [
+    ...own,
     ["Attitude", `${number(status.attitude_hz, 0)} Hz`],
     ["Position", `${number(status.position_hz, 0)} Hz`],
     ["Video", `${number(status.video_hz, 0)} /s`],
@@ -74,49 +90,18 @@ export function showRates(card, list, { status, view }) {
 export function showCalibration(card, table, rows) {
   card.hidden = !rows;
   if (!rows) return;
-  table.replaceChildren(element("tbody", {}, ...rows.map((row) => element("tr", {},
-    element("td", { textContent: row.name }),
-    element("td", { textContent: number(row.value, row.digits) }),
-    element("td", { className: "sigma", textContent: `± ${number(row.sigma, row.digits)}` }),
-    element("td", { className: "unit", textContent: row.unit })))));
+  const body = table.tBodies[0];
+  while (body.rows.length < rows.length) {
+    body.append(element("tr", {}, ...["", "value", "sigma", "unit"].map((className) => element("td", { className }))));
+  }
+  rows.forEach((row, i) => {
+    explain(body.rows[i], row.name);
+    const sign = row.value > 0 ? "+" : "";
+    const texts = [row.name, `${sign}${number(row.value, row.digits)}`, `± ${number(row.sigma, row.digits)}`, row.unit];
+    texts.forEach((text, column) => { body.rows[i].cells[column].textContent = text; });
+  });
 }
 
 export function showCounters(list, counters) {
   figures(list, Object.entries(counters ?? {}).map(([name, value]) => [name, value.toLocaleString("en")]));
-}
-
-function objectRow(object, isSelected, onSelect) {
-  const row = element("tr", { className: object.confirmed ? "" : "tentative", tabIndex: 0 },
-    element("td", { textContent: object.id }),
-    element("td", { className: "name", textContent: object.name, title: object.name }),
-    element("td", { textContent: sigmaText(object.major_m) }),
-    element("td", { textContent: object.hits }),
-    element("td", { textContent: clock(object.last_seen) }));
-  row.dataset.id = object.id;
-  row.setAttribute("aria-selected", isSelected);
-  row.addEventListener("click", () => onSelect(object.id));
-  row.addEventListener("keydown", (event) => {
-    if (event.key === "Enter") onSelect(object.id);
-  });
-  return row;
-}
-
-export function showObjects(holder, count, objects, selected, onSelect) {
-  const all = [...objects.values()].sort((a, b) => b.confirmed - a.confirmed || a.id - b.id);
-  const confirmed = all.filter((object) => object.confirmed).length;
-  count.textContent = `${confirmed} confirmed, ${all.length - confirmed} tentative`;
-  if (all.length === 0) {
-    holder.replaceChildren(element("p", { className: "empty", textContent: "None yet." }));
-    return;
-  }
-  const head = element("tr", {}, ...["id", "class", "σ", "hits", "last seen UTC"].map((name) =>
-    element("th", { textContent: name, scope: "col" })));
-  head.children[1].style.textAlign = "left";
-  const focused = document.activeElement?.dataset?.id;
-  const body = element("tbody", {}, ...all.slice(0, MOST_ROWS).map((object) =>
-    objectRow(object, object.id === selected, onSelect)));
-  const scrolled = holder.scrollTop;
-  holder.replaceChildren(element("table", {}, element("thead", {}, head), body));
-  holder.scrollTop = scrolled;
-  if (focused) holder.querySelector(`tr[data-id="${Number(focused)}"]`)?.focus({ preventScroll: true });
 }

@@ -4,6 +4,8 @@
 const EQUATORIAL_RADIUS_M = 6378137.0;
 const ECCENTRICITY_SQUARED = 0.00669437999014;
 const RAD = Math.PI / 180;
+const REACH = 6; // typical points lie within so many times the median distance from their centre
+const LEAST_REACH_M = 60;
 
 /** Degrees [latitude, longitude] of a point, by the ellipsoid's curvature at the anchor: centimetres within a kilometre. */
 export function toDegrees(anchor, [east, north]) {
@@ -26,6 +28,23 @@ function metresPerDegree(latitude) {
     perLatitude: RAD * EQUATORIAL_RADIUS_M * (1 - ECCENTRICITY_SQUARED) / root ** 3,
     perLongitude: RAD * EQUATORIAL_RADIUS_M * Math.cos(latitude * RAD) / root,
   };
+}
+
+/** The way between two points of the run's frame: direction clockwise from north, and distance. */
+export function wayTo(from, to) {
+  const [east, north] = [to[0] - from[0], to[1] - from[1]];
+  return { azimuth_deg: (Math.atan2(east, north) / RAD + 360) % 360, distance_m: Math.hypot(east, north) };
+}
+
+const middle = (values) => values.sort((a, b) => a - b)[values.length >> 1];
+
+/** The points without those far from all others: what a single false one would add to a view is left out. */
+export function typical(points) {
+  if (points.length < 3) return points;
+  const centre = [middle(points.map(([x]) => x)), middle(points.map(([, y]) => y))];
+  const distances = points.map(([x, y]) => Math.hypot(x - centre[0], y - centre[1]));
+  const reach = Math.max(LEAST_REACH_M, REACH * middle([...distances]));
+  return points.filter((_, i) => distances[i] <= reach);
 }
 
 /** 1, 2 or 5 times a power of ten, not less than `least`. */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The video's newest picture with the detector's boxes, fetched when the server announces one.
 
-const LABEL_PX = 12; // on the screen, whatever the size of the picture
+const LABEL_PX = 14; // on the screen, whatever the size of the picture
 const BOX_PX = 1.8;
 
 /** 4 bytes of the JSON's length, little endian, the JSON, the JPEG. */
