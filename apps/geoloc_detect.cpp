@@ -75,7 +75,8 @@ struct Program {
       live_from_json(read_config_document(options.config_file), config, problems);
       refuse_problems(options.config_file, problems);
     }
-    detector = io::open_detector(detector_files(options.detector), detection_of(options, config.detection));
+    config.detection = detection_of(options, config.detection);
+    detector = io::open_detector(detector_files(options.detector), config.detection);
     results = std::make_unique<ResultWriter>(
         options.places, inputs, joined({files_of_config(options.config_file), files_of(options.detector)}),
         detector->class_names());
@@ -100,7 +101,8 @@ int main(int argc, char** argv) {
       guard("geoloc_detect", kUnusable, [&] { program = std::make_unique<Program>(options); });
   if (unusable) return *unusable;
 
-  DetectRun run(*program->detector, *program->results, program->config.video, program->inputs.size());
+  DetectRun run(*program->detector, *program->results, program->config.video, program->inputs.size(),
+                program->config.detection.confidence);
   const auto failed = guard("geoloc_detect", kFailed, [&] {
     for (const DetectInput& input : program->inputs) {
       if (!run.is_stopped()) run.look_at(input);

@@ -21,8 +21,11 @@ io::SinkRunner::Tell Outputs::teller() const {
 
 void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool is_located) {
   if (streams_.empty()) return;
-  const auto report = std::make_shared<const io::OutputFrame>(
+  auto filled = std::make_shared<io::OutputFrame>(
       io::report_frame(session.geolocator(), is_located, frame.captured_at, frame.detections, class_names_));
+  filled->number = session.frames() - 1;
+  for (std::size_t i = 0; i < filled->fixes.size(); ++i) filled->fixes[i].look = session.looks()[i];
+  const std::shared_ptr<const io::OutputFrame> report = std::move(filled);
   for (io::SinkRunner* sink : streams_) sink->post(report);
 }
 
