@@ -14,7 +14,7 @@ constexpr auto kReminderPeriod = std::chrono::seconds{30};
 /// Connections are made and streams are asked for so long after the start: what is missing then is no fault.
 constexpr auto kSettling = std::chrono::seconds{5};
 /// Between status lines where they do not replace each other.
-constexpr auto kLogPeriod = std::chrono::seconds{5};
+constexpr auto kLogPeriod = std::chrono::seconds{2};
 constexpr const char* kClearLine = "\r\033[K";
 
 /// Characters in a line of the terminal. One that is longer would be wrapped, and could not be overwritten.
