@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/closing_words.hpp"
 #include "app/console.hpp"
 #include "app/damage_watch.hpp"
 #include "app/live_inputs.hpp"
@@ -17,8 +18,11 @@
 #include "app/page_pictures.hpp"
 #include "app/recorder.hpp"
 #include "app/resources.hpp"
+#include "app/steady_text.hpp"
 #include "app/vehicle_reports.hpp"
+#include "app/video_tally.hpp"
 #include "common/command_line.hpp"
+#include "common/diagnosis.hpp"
 #include "common/last_words.hpp"
 #include "common/link_message.hpp"
 #include "common/live_page_output.hpp"
@@ -40,6 +44,8 @@ using namespace geoloc::apps;
 constexpr auto kStatusPeriod = std::chrono::seconds{1};
 /// Files are written anew so often, so that a power cut costs seconds.
 constexpr auto kFilePeriod = std::chrono::seconds{5};
+constexpr auto kDoubtsBegin = std::chrono::seconds{15};
+constexpr auto kDoubtLasts = std::chrono::seconds{30};
 constexpr auto kTablePatience = std::chrono::seconds{5};
 
 /// Everything that can be wrong with arguments, files, model and port is found while this is made.
@@ -94,9 +100,19 @@ void tell_all(const std::vector<std::string>& messages, Console& console) {
   for (const std::string& message : messages) console.say("geoloc_app: " + message);
 }
 
+/// What seems wrong with the input of the run so far: the first that is, or empty. The beginning tells
+/// little.
+std::string doubt_of(const Session& session, const VideoTally& tally, Duration elapsed) {
+  if (elapsed < kDoubtsBegin) return {};
+  const std::string slow = slowness(tally);
+  if (!slow.empty() || session.frames() == 0) return slow;
+  const std::vector<std::string> sentences = diagnose(facts_of(session));
+  return sentences.empty() ? "" : sentences.front();
+}
+
 /// Until the video ends or the user has enough.
-void run_until_stopped(Program& program, MessageBox& library_words, Console& console,
-                       const StopSignal& stop) {
+VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console& console,
+                           const StopSignal& stop) {
   const LiveInputs& inputs = program.inputs;
   std::optional<PagePictures> pictures;
   if (program.page) pictures.emplace(program.page, inputs.config.estimation.live_page.picture_width_px);
@@ -118,14 +134,18 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
               });
   const HostTime started_at = program.clock.now();
   DamageWatch damage(inputs.config.video.transport);
+  SteadyText doubt(kDoubtLasts);
   Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at);
   while (!stop.is_requested() && !run.has_ended()) {
     run.step();
     const HostTime now = program.clock.now();
     if (status.is_due(now)) {
       record_notes(program);
+      const io::VideoStatus video = inputs.video->status();
+      const std::string doubt_now =
+          doubt_of(program.session, tally_of(video, worker.stats()), now - started_at);
       const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run,
-                                     damage.observe(now, inputs.video->status()));
+                                     damage.observe(now, video), doubt.show(now, doubt_now));
       tell_all(library_words.take(), console);
       tell_all(program.outputs.take_messages(), console);
       tell_all(program.recorder->take_messages(), console);
@@ -138,8 +158,10 @@ void run_until_stopped(Program& program, MessageBox& library_words, Console& con
     program.session.note_damaged(worker.stats().damaged);
     program.outputs.post_run(program.record());
   }
-  program.session.note_damaged(worker.stats().damaged);
+  const DetectionWorker::Stats detection = worker.stats();
+  program.session.note_damaged(detection.damaged);
   if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
+  return {tally_of(inputs.video->status(), detection), detection, run.stats()};
 }
 
 /// False where stdout does not take it.
@@ -192,7 +214,7 @@ int main(int argc, char** argv) {
   if (program->page) console.say(page_message(*program->page, options.outputs, has_reader));
   if (const auto code = has_reader && program->page ? page_for_telephones(*program->page) : ""; !code.empty())
     console.say(code);
-  run_until_stopped(*program, *library_words, console, stop);
+  const VideoEnd video = run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
 
   record_notes(*program);
@@ -207,6 +229,10 @@ int main(int argc, char** argv) {
   const std::string refusals = count_of_refusals(program->inputs.guard->counts());
   if (!refusals.empty()) console.say(refusals);
   console.say(record.summary);
+  const LiveInputs& inputs = program->inputs;
+  for (const std::string& line :
+       closing_words(video, inputs.detector->counts(), inputs.config.detection.confidence))
+    console.say(line);
   const bool is_shown = !options.outputs.wants_table() || show_table(record, console);
   const bool has_failed = program->outputs.has_failed() || program->recorder->has_failed() || !is_shown;
   return has_failed ? kFailed : kDone;

@@ -8,6 +8,7 @@
 #include "app/live_config.hpp"
 #include "common/command_line.hpp"
 #include "common/detector_options.hpp"
+#include "common/ignored_settings.hpp"
 #include "detect/detect_run.hpp"
 #include "geoloc/geometry/problems.hpp"
 #include "io/detection/detection_fields.hpp"
@@ -67,15 +68,29 @@ io::DetectionConfig detection_of(const Options& options, const io::DetectionConf
   return config;
 }
 
+void tell_ignored(const nlohmann::json& document, const std::string& name) {
+  std::vector<Ignored> ignored;
+  for (const auto& [section, settings] : document.items()) {
+    if (section != "detection" && section != "video")
+      ignored.push_back({section, "only detection and video are used"});
+  }
+  const LiveConfig defaults;
+  for (const std::string& line : ignored_settings(document, live_to_json(defaults), ignored, name))
+    std::fprintf(stderr, "geoloc_detect: %s\n", line.c_str());
+}
+
 /// Everything that can be wrong before the first picture is found while this is made.
 struct Program {
   explicit Program(const Options& options) : inputs(find_inputs(options.inputs)) {
     if (!options.config_file.empty()) {
       std::vector<std::string> problems;
-      live_from_json(read_config_document(options.config_file), config, problems);
+      const nlohmann::json document = read_config_document(options.config_file);
+      live_from_json(document, config, problems);
       refuse_problems(options.config_file, problems);
+      tell_ignored(document, options.config_file);
     }
-    detector = io::open_detector(detector_files(options.detector), detection_of(options, config.detection));
+    config.detection = detection_of(options, config.detection);
+    detector = io::open_detector(detector_files(options.detector), config.detection);
     results = std::make_unique<ResultWriter>(
         options.places, inputs, joined({files_of_config(options.config_file), files_of(options.detector)}),
         detector->class_names());
@@ -100,7 +115,8 @@ int main(int argc, char** argv) {
       guard("geoloc_detect", kUnusable, [&] { program = std::make_unique<Program>(options); });
   if (unusable) return *unusable;
 
-  DetectRun run(*program->detector, *program->results, program->config.video, program->inputs.size());
+  DetectRun run(*program->detector, *program->results, program->config.video, program->inputs.size(),
+                program->config.detection.confidence);
   const auto failed = guard("geoloc_detect", kFailed, [&] {
     for (const DetectInput& input : program->inputs) {
       if (!run.is_stopped()) run.look_at(input);

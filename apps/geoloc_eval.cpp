@@ -3,94 +3,22 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
 #include "common/command_line.hpp"
-#include "common/detector_options.hpp"
-#include "common/ground_options.hpp"
 #include "common/progress_line.hpp"
+#include "eval/eval_options.hpp"
 #include "eval/experiment.hpp"
 #include "eval/report_folder.hpp"
+#include "eval/setting_sweep.hpp"
 #include "eval/sweep.hpp"
+#include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/output/object_report.hpp"
 #include "geoloc/sim/flight/flight.hpp"
 
 namespace {
 
 using namespace geoloc;
 using namespace geoloc::apps;
-
-struct Options {
-  std::string flights = "all";
-  std::string method = "both";
-  std::vector<int> scenarios{1, 2, 3};
-  std::vector<std::uint64_t> seeds{0, 1, 2};
-  int known_points = 0;
-  double hills_m = 0.0;
-  bool has_rangefinder = false;
-  GroundOptions ground;
-  double dem_spacing_m = 5.0;
-  std::string config_file;
-  std::string sweep;
-  bool is_rendered = false;
-  RenderedSettings rendered;
-  DetectorOptions detector;
-  std::string report_folder;
-  std::optional<std::filesystem::path> data_folder;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-};
-
-void add_options(CLI::App& program, Options& options) {
-  program.add_option("--flights", options.flights, "Which set of flights in the table")
-      ->check(CLI::IsMember({"stock", "gnss", "all", "none"}))
-      ->capture_default_str();
-  program.add_option("--method", options.method, "Which estimator")
-      ->check(CLI::IsMember({"paper", "joint", "both"}))
-      ->capture_default_str();
-  program.add_option("--scenarios", options.scenarios, "Targets: 1 spread, 2 tight clusters, 3 grid")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 3))
-      ->capture_default_str();
-  program.add_option("--seeds", options.seeds, "Seeds of targets and errors")
-      ->delimiter(',')
-      ->capture_default_str();
-  program
-      .add_option("--known-points", options.known_points,
-                  "Also run the joint method with so many targets of each run told to it, 5 cm off; the "
-                  "others are scored")
-      ->check(CLI::Range(0, 30))
-      ->capture_default_str();
-  program.add_option("--hills-m", options.hills_m, "Amplitude of the ground's waves in the table's runs, m")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
-  program
-      .add_option(
-          "--ground", options.ground.ground,
-          "What the estimator is told of the ground: plane, free, or dem, the simulated ground itself")
-      ->check(CLI::IsMember({kLevelGround, kFreeGround, "dem"}))
-      ->capture_default_str();
-  program.add_flag("--rangefinder", options.has_rangefinder,
-                   "The vehicles measure the distance to the ground below them");
-  program.add_option("--dem-spacing-m", options.dem_spacing_m, "Between the heights that dem tells, m")
-      ->check(CLI::Range(0.5, 100.0))
-      ->capture_default_str();
-  add_ground_sigma_option(program, options.ground);
-  program.add_option("--sweep", options.sweep, "Vary one circumstance as well: its name, or all [none]")
-      ->type_name("NAME");
-  program.add_flag(
-      "--rendered", options.is_rendered,
-      "Also draw every frame of one flight and let the detector find the targets; takes minutes");
-  program.add_option("--rendered-flight", options.rendered.flight, "Which one")->capture_default_str();
-  program.add_option("--rendered-s", options.rendered.length_s, "So much of its survey, s [all]")
-      ->check(CLI::Range(1.0, 1e4));
-  add_detector_options(program, options.detector);
-  program.add_option("--config", options.config_file, "Settings of the estimator, JSON")->type_name("FILE");
-  program.add_option("--report", options.report_folder, "Write report.md, report.json and pictures here")
-      ->type_name("DIR");
-  program.add_option("--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
-  program.add_option("--threads", options.threads, "Runs at once")
-      ->check(CLI::Range(1U, 256U))
-      ->capture_default_str();
-}
 
 std::vector<std::string> flights_of_set(const std::string& set) {
   std::vector<std::string> flights;
@@ -99,7 +27,7 @@ std::vector<std::string> flights_of_set(const std::string& set) {
 }
 
 /// Without flights: table and sweeps fly different ones.
-Experiment make_experiment(const Options& options) {
+Experiment make_experiment(const EvalOptions& options) {
   Experiment experiment;
   experiment.flights_folder =
       sim::find_flights(options.data_folder, std::filesystem::read_symlink("/proc/self/exe"));
@@ -111,17 +39,12 @@ Experiment make_experiment(const Options& options) {
   experiment.recording.terrain.hills_m = options.hills_m;
   experiment.has_rangefinder = options.has_rangefinder;
   if (options.ground.ground == "dem") experiment.dem_spacing_m = options.dem_spacing_m;
-  if (!options.config_file.empty()) {
-    std::vector<std::string> problems;
-    estimation_from_json(read_config_document(options.config_file), {"video", "detection"},
-                         experiment.estimation, problems);
-    refuse_problems(options.config_file, problems);
-  }
+  experiment.estimation = read_settings(options);
   apply_ground_sigma(options.ground, experiment.estimation.geolocator);
   return experiment;
 }
 
-std::vector<RunResult> run_table(Experiment experiment, const Options& options) {
+std::vector<RunResult> run_table(Experiment experiment, const EvalOptions& options) {
   for (const char* set : {"stock", "gnss"}) {
     if (options.flights != "all" && options.flights != set) continue;
     for (std::string& flight : flights_of_set(set)) experiment.flights.push_back(std::move(flight));
@@ -135,7 +58,7 @@ std::vector<RunResult> run_table(Experiment experiment, const Options& options) 
 }
 
 std::vector<SweepResult> run_sweeps(Experiment experiment, const std::vector<Sweep>& sweeps,
-                                    const Options& options) {
+                                    const EvalOptions& options) {
   experiment.flights = flights_of_set("stock");
   std::size_t steps = 0;
   for (const Sweep& sweep : sweeps) steps += sweep.values.size() * experiment.flights.size();
@@ -146,7 +69,7 @@ std::vector<SweepResult> run_sweeps(Experiment experiment, const std::vector<Swe
   return results;
 }
 
-std::vector<RenderedRun> run_rendered(const Experiment& experiment, const Options& options) {
+std::vector<RenderedRun> run_rendered(const Experiment& experiment, const EvalOptions& options) {
   RenderedSettings settings = options.rendered;
   settings.seed = options.seeds.front();
   if (!options.report_folder.empty()) {
@@ -166,15 +89,20 @@ std::vector<RenderedRun> run_rendered(const Experiment& experiment, const Option
 
 int main(int argc, char** argv) {
   CLI::App program("Runs the estimator on all flights and scenarios, and scores it.", "geoloc_eval");
-  Options options;
-  add_options(program, options);
+  EvalOptions options;
+  add_eval_options(program, options);
   if (const auto status = parse(program, argc, argv)) return *status;
 
+  ReportContext context{command_of(argc, argv), io::iso8601(io::HostClock().now()), version(), {}};
   Experiment experiment;
   std::vector<Sweep> sweeps;
   const auto unusable = guard("geoloc_eval", kUnusable, [&] {
+    refuse_idle_options(program, options);
     experiment = make_experiment(options);
     if (!options.sweep.empty()) sweeps = find_sweeps(options.sweep);
+    for (const std::string& text : options.setting_sweeps)
+      sweeps.push_back(setting_sweep(text, experiment.estimation));
+    context.settings = changed_settings(experiment.estimation);
     if (options.is_rendered) {
       sim::load_flight(experiment.flights_folder, options.rendered.flight);  // refuses an unknown one
       options.rendered.model = detector_files(options.detector);
@@ -193,7 +121,7 @@ int main(int argc, char** argv) {
     results.sweeps = run_sweeps(experiment, sweeps, options);
     if (options.is_rendered) results.rendered = run_rendered(experiment, options);
     std::fputs(to_markdown(results).c_str(), stdout);
-    if (!options.report_folder.empty()) write_report(options.report_folder, results);
+    if (!options.report_folder.empty()) write_report(options.report_folder, results, context);
   });
   return failed.value_or(kDone);
 }

@@ -12,6 +12,7 @@
 #include "common/command_line.hpp"
 #include "common/estimation_config.hpp"
 #include "common/ground_options.hpp"
+#include "common/ignored_settings.hpp"
 #include "common/live_page_output.hpp"
 #include "common/objects_table.hpp"
 #include "common/output_options.hpp"
@@ -62,17 +63,42 @@ nlohmann::json recorded_settings(const std::string& text) {
   return settings;
 }
 
+/// Names the settings of the file that change nothing: those of the live run, of which the recording tells
+/// what came of them, and those that other options leave without effect.
+void tell_ignored(const Options& options, const nlohmann::json& document, nlohmann::json before,
+                  const nlohmann::json& recorded, const EstimationConfig& config) {
+  constexpr const char* kNoVehicle = "a replay sends nothing to a vehicle";
+  std::vector<Ignored> ignored = ignored_by(config, options.outputs);
+  for (const std::string& section : kLiveSections) {
+    ignored.push_back({section, "a replay takes frames and detections as they were recorded"});
+    if (recorded.is_object() && recorded.contains(section)) before[section] = recorded[section];
+  }
+  for (const char* setting :
+       {"component_id", "attitude_rate_hz", "position_rate_hz", "rangefinder_rate_hz", "link_timeout_s",
+        "signing_key_file", "signing_state_file", "camera", "camera_component_id", "status_text"})
+    ignored.push_back({std::string("mavlink.") + setting, kNoVehicle});
+  for (const std::string& line : ignored_settings(document, before, ignored, options.config_file))
+    std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());
+}
+
 /// The recording's own configuration, under the file given, under the options given. The camera is always the
 /// recording's, unless a file names another.
 EstimationConfig choose_config(const Options& options, const io::Recording* recording) {
   EstimationConfig config;
+  nlohmann::json recorded;
   if (recording != nullptr && recording->config_json) {
-    apply(recorded_settings(*recording->config_json), options.recording + "/config.json", config);
+    recorded = recorded_settings(*recording->config_json);
+    apply(recorded, options.recording + "/config.json", config);
   }
   if (recording != nullptr) config.geolocator.camera = recording->camera;
-  if (!options.config_file.empty())
-    apply(read_config_document(options.config_file), options.config_file, config);
+  const nlohmann::json before = estimation_to_json(config);
+  nlohmann::json document;
+  if (!options.config_file.empty()) {
+    document = read_config_document(options.config_file);
+    apply(document, options.config_file, config);
+  }
   if (!options.method.empty()) apply({{"method", options.method}}, "--method", config);
+  tell_ignored(options, document, before, recorded, config);
   apply_priors(options.priors, config.geolocator);
   if (const std::string remarks = apply_ground(options.ground, config.geolocator); !remarks.empty())
     std::fprintf(stderr, "%s\n", remarks.c_str());
@@ -171,6 +197,12 @@ std::unique_ptr<Program> make_program(const Options& options) {
   return std::make_unique<Program>(options, std::move(*recording), config);
 }
 
+void tell_skipped(const io::SkippedLines& skipped) {
+  for (const std::string& line : skipped.named)
+    std::fprintf(stderr, "geoloc_replay: skipped %s\n", line.c_str());
+  if (skipped.count > 0) std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", skipped.count);
+}
+
 /// The page stays to be looked at, until Ctrl-C. Whether results could not be written again.
 bool keep_page(Program& program, const io::RunRecord& record, const StopSignal& stop) {
   bool has_failed = false;
@@ -203,8 +235,7 @@ int main(int argc, char** argv) {
   if (!program) return kDone;
 
   const StopSignal stop;
-  if (program->recording.skipped_lines > 0)
-    std::fprintf(stderr, "geoloc_replay: skipped %zu bad lines\n", program->recording.skipped_lines);
+  tell_skipped(program->recording.skipped);
   const bool has_reader = isatty(STDERR_FILENO) == 1;
   if (program->page)
     std::fprintf(stderr, "%s\n", page_message(*program->page, options.outputs, has_reader).c_str());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/camera_view.hpp"
 
+#include "common/frame_looks.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/projection/projector.hpp"
@@ -17,14 +18,6 @@ std::optional<Eigen::Vector2d> image_point(const Geolocator& geolocator,
   if (!pixel || !projector.camera().contains(*pixel)) return std::nullopt;
   const CameraIntrinsics& image = projector.camera().intrinsics();
   return Eigen::Vector2d((pixel->x() + 0.5) / image.width_px, (pixel->y() + 0.5) / image.height_px);
-}
-
-/// The view is lifted, and objects with it.
-Eigen::Vector3d position_in_view(const Track& track, const Geolocator& geolocator) {
-  const Eigen::Vector2d& mean = track.position_in_enu.mean;
-  const double ground_m = geolocator.projector().config().ground_height_above_home_m;
-  const double height_m = track.height ? track.height->above_home_m + geolocator.view().lifted_m : ground_m;
-  return {mean.x(), mean.y(), height_m};
 }
 
 io::CameraTarget target_of(const Track& track, const Geolocator& geolocator) {

@@ -3,13 +3,15 @@
 
 #include <string>
 
+#include "common/periodic.hpp"
 #include "common/text_writer.hpp"
 #include "geoloc/io/output/live_status.hpp"
 
 namespace geoloc::apps {
 
-/// What a person sees of a live run on stderr: a status line, and a message when the link or the video
-/// changes its state, repeated at intervals while it is bad. No call waits for a terminal that is stopped.
+/// What a person sees of a live run on stderr: a status line, which is written anew in its place on a
+/// terminal and every few seconds elsewhere, and a message when the link or the video changes its state,
+/// repeated at intervals while it is bad. No call waits for a terminal that is stopped.
 class Console {
  public:
   Console();
@@ -31,6 +33,7 @@ class Console {
   TextWriter stderr_;
   bool is_terminal_;
   bool line_is_open_ = false;
+  Periodic log_line_;
   Topic video_;
   Topic link_;
   Topic clock_;

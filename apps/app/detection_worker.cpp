@@ -66,6 +66,7 @@ void DetectionWorker::detect(const io::VideoFrame& frame) {
 
   const std::lock_guard lock(mutex_);
   ++stats_.detected;
+  stats_.detections += result.detections.size();
   stats_.detect_ms.add(took_ms);
   if (queue_.size() >= kLongestQueue) {
     queue_.erase(queue_.begin());

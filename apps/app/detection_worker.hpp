@@ -30,7 +30,8 @@ struct DetectedFrame {
 class DetectionWorker {
  public:
   struct Stats {
-    std::uint64_t detected = 0;
+    std::uint64_t detected = 0;    ///< frames searched
+    std::uint64_t detections = 0;  ///< found in them
     std::uint64_t damaged = 0;
     std::uint64_t wrong_size = 0;
     std::uint64_t overflowed = 0;    ///< queued results nobody took in time

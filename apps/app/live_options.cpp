@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/live_options.hpp"
 
+#include "common/ignored_settings.hpp"
+
 namespace geoloc::apps {
 
 void add_live_options(CLI::App& program, LiveOptions& options) {
@@ -32,6 +34,26 @@ NamedFiles inputs_of(const LiveOptions& options) {
   return files;
 }
 
+namespace {
+
+/// Lines on the settings of the file that change nothing.
+std::string ignored_lines(const LiveOptions& options, const nlohmann::json& document,
+                          const LiveConfig& config) {
+  std::vector<Ignored> ignored = ignored_by(config.estimation, options.outputs);
+  for (const char* setting : {"transport", "latency_s", "reorder_s", "frame_timeout_s", "connect_timeout_s",
+                              "retry_min_s", "retry_max_s"}) {
+    if (options.rtsp_url.empty()) ignored.push_back({std::string("video.") + setting, "there is no --rtsp"});
+  }
+  const LiveConfig defaults;
+  std::string lines;
+  for (const std::string& line :
+       ignored_settings(document, live_to_json(defaults), ignored, options.config_file))
+    lines += (lines.empty() ? "" : "\n") + line;
+  return lines;
+}
+
+}  // namespace
+
 LoadedConfig load_config(const LiveOptions& options) {
   LoadedConfig loaded;
   LiveConfig& config = loaded.config;
@@ -40,10 +62,16 @@ LoadedConfig load_config(const LiveOptions& options) {
     live_from_json(document, config, problems);
     refuse_problems(name, problems);
   };
-  if (!options.config_file.empty()) apply(read_config_document(options.config_file), options.config_file);
+  nlohmann::json document;
+  if (!options.config_file.empty()) {
+    document = read_config_document(options.config_file);
+    apply(document, options.config_file);
+  }
   if (!options.method.empty()) apply({{"method", options.method}}, "--method");
   apply_priors(options.priors, config.estimation.geolocator);
-  loaded.remarks = apply_ground(options.ground, config.estimation.geolocator);
+  loaded.remarks = ignored_lines(options, document, config);
+  if (const std::string ground = apply_ground(options.ground, config.estimation.geolocator); !ground.empty())
+    loaded.remarks += (loaded.remarks.empty() ? "" : "\n") + ground;
   config.detection = with_backend(options.detector, config.detection);
   return loaded;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/detector_options.hpp"
 
+#include <fmt/format.h>
+
 #include "common/data_files.hpp"
 
 namespace geoloc::apps {
@@ -42,6 +44,11 @@ NamedFiles files_of(const DetectorOptions& options) {
   add_named(files, "--class-names", options.class_names_file);
   if (options.second_look_file != "none") add_named(files, "--second-look", options.second_look_file);
   return files;
+}
+
+std::string nothing_detected(const io::DetectorCounts& counts, double confidence) {
+  return fmt::format("nothing reached detection.confidence ({:g}): the best score below it was {:.2f}",
+                     confidence, counts.best_score_below);
 }
 
 io::DetectionConfig with_backend(const DetectorOptions& options, io::DetectionConfig config) {

@@ -28,6 +28,9 @@ io::DetectorFiles detector_files(const DetectorOptions& options);
 /// Those files that the command line names, as inputs for check_outputs().
 NamedFiles files_of(const DetectorOptions& options);
 
+/// Why a detector that found nothing did so, for people.
+std::string nothing_detected(const io::DetectorCounts& counts, double confidence);
+
 /// --backend over what the configuration says.
 io::DetectionConfig with_backend(const DetectorOptions& options, io::DetectionConfig config);
 

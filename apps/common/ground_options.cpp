@@ -50,6 +50,10 @@ std::string apply_ground(const GroundOptions& options, GeolocatorConfig& config)
 }
 
 void apply_ground_sigma(const GroundOptions& options, GeolocatorConfig& config) {
+  if (config.method != Method::kJoint && (options.ground == kFreeGround || options.sigma_m))
+    throw std::runtime_error(std::string(options.sigma_m ? "--ground-sigma-m" : "--ground free") +
+                             ": the paper's method takes all objects to lie on the ground; leave out one of "
+                             "the two");
   if (options.ground == kFreeGround) {
     if (options.sigma_m)
       throw std::runtime_error("--ground-sigma-m: free heights have no sigma; leave out one of the two");

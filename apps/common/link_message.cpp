@@ -50,13 +50,16 @@ std::string fault(const io::LinkStatus& link, const StateProvider& state) {
 
 LinkMessage link_message(const io::LinkStatus& link, const StateProvider& state) {
   if (!link.vehicle)
-    return {"waiting for a vehicle: no MAVLink heartbeat of an autopilot yet" + of_another(link), false};
+    return {"waiting for a vehicle: no MAVLink heartbeat of an autopilot yet" + of_another(link), false,
+            "no MAVLink heartbeat of an autopilot came" + of_another(link)};
   const std::string vehicle = fmt::format("vehicle {}: ", link.vehicle->system);
   const std::string what = fault(link, state);
   if (what.empty() && link.has_gnss_glitch)
-    return {vehicle + "telemetry comes; its estimator reports a GNSS glitch: the position may be off", true};
-  if (what.empty()) return {vehicle + "telemetry comes", true};
-  return {vehicle + what + "; frames cannot be located" + of_another(link), false};
+    return {
+        vehicle + "telemetry comes; its estimator reports a GNSS glitch: the position may be off", true, {}};
+  if (what.empty()) return {vehicle + "telemetry comes", true, {}};
+  return {vehicle + what + "; frames cannot be located" + of_another(link), false,
+          vehicle + what + of_another(link)};
 }
 
 std::string refusal_message(const io::LinkGuard& guard, HostTime now) {

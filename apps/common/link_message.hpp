@@ -13,6 +13,7 @@ namespace geoloc::apps {
 struct LinkMessage {
   std::string text;
   bool is_good = false;  ///< frames can be located
+  std::string fault;     ///< why they cannot, in short; empty where they can
 };
 
 /// `state`: what became of the telemetry in the estimator.

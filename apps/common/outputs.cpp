@@ -23,6 +23,8 @@ void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool
   if (streams_.empty()) return;
   const auto report = std::make_shared<io::OutputFrame>(
       io::report_frame(session.geolocator(), is_located, frame.captured_at, frame.detections, class_names_));
+  report->number = session.frames() - 1;
+  for (std::size_t i = 0; i < report->fixes.size(); ++i) report->fixes[i].look = session.looks()[i];
   notes_->apply(report->objects);
   for (io::SinkRunner* sink : streams_) sink->post(report);
 }

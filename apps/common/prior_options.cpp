@@ -34,9 +34,12 @@ void apply_priors(const PriorFiles& files, GeolocatorConfig& config) {
           "--known-points: the paper's method has no use for known points; leave out one of the two");
     config.known_points = io::read_known_points(files.known_points);
   }
-  if (!files.calibration.empty())
-    config.joint.prior =
-        io::read_calibration(files.calibration, config.joint.prior, config.joint.drift.sigma_yaw_deg);
+  if (files.calibration.empty()) return;
+  if (config.method != Method::kJoint)
+    throw std::runtime_error(
+        "--calibration: the paper's method takes the camera as it is given; leave out one of the two");
+  config.joint.prior =
+      io::read_calibration(files.calibration, config.joint.prior, config.joint.drift.sigma_yaw_deg);
 }
 
 }  // namespace geoloc::apps

@@ -3,14 +3,15 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdio>
 
 namespace geoloc::apps {
 
-/// A line on a terminal that tells how far a long step is; silent for short steps and where stderr is no
-/// terminal.
+/// A line that tells how far a long step is, silent for short ones: written anew in its place on a terminal,
+/// and every few seconds elsewhere.
 class ProgressLine {
  public:
   ProgressLine(const char* what, std::size_t total)
@@ -19,14 +20,17 @@ class ProgressLine {
   void show(std::size_t done) {
     constexpr auto kQuiet = std::chrono::seconds{1};
     constexpr auto kPeriod = std::chrono::milliseconds{200};
+    constexpr auto kLogPeriod = std::chrono::seconds{5};
     const auto now = std::chrono::steady_clock::now();
-    if (!is_terminal_ || now - started_ < kQuiet || now - shown_ < kPeriod || total_ == 0) return;
+    const auto since = now - std::max(shown_, started_);
+    if (total_ == 0 || now - started_ < kQuiet || since < (is_terminal_ ? kPeriod : kLogPeriod)) return;
     shown_ = now;
-    std::fprintf(stderr, "\r%s %3zu %%", what_, 100 * done / total_);
+    const std::size_t percent = 100 * done / total_;
+    std::fprintf(stderr, is_terminal_ ? "\r%s %3zu %%" : "%s %zu %%\n", what_, percent);
   }
 
   void finish() const {
-    if (shown_ != std::chrono::steady_clock::time_point{}) std::fputs("\r\033[K", stderr);
+    if (is_terminal_ && shown_ != std::chrono::steady_clock::time_point{}) std::fputs("\r\033[K", stderr);
   }
 
  private:

@@ -16,15 +16,17 @@ void append_bounded(std::vector<T>& entries, const T& entry, std::size_t capacit
 
 }  // namespace
 
-void RunHistory::note(const Geolocator& geolocator, HostTime captured_at) {
+void RunHistory::note(const Geolocator& geolocator, HostTime captured_at, std::uint64_t frame,
+                      const std::vector<io::Look>& looks) {
   append_bounded(trajectory_,
                  io::TrajectoryPoint{captured_at, geolocator.view().vehicle.enu_from_body.translation},
                  capacity_);
-  for (const LocatedDetection& located : geolocator.located()) {
-    append_bounded(
-        raw_fixes_,
-        io::RawFix{captured_at, located.detection, located.fix.position_in_enu, located.fix.range_m},
-        capacity_);
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const LocatedDetection& located = geolocator.located()[i];
+    append_bounded(raw_fixes_,
+                   io::RawFix{captured_at, located.detection, located.fix.position_in_enu,
+                              located.fix.range_m, frame, looks[i]},
+                   capacity_);
   }
 }
 

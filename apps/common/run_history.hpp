@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "geoloc/io/output/raw_fixes.hpp"
@@ -17,7 +18,9 @@ class RunHistory {
   explicit RunHistory(std::size_t capacity = 200'000) : capacity_(capacity) {}
 
   /// Notes the frame that the Geolocator located last.
-  void note(const Geolocator& geolocator, HostTime captured_at);
+  /// `frame`: its number. `looks`: one for each of its located detections.
+  void note(const Geolocator& geolocator, HostTime captured_at, std::uint64_t frame,
+            const std::vector<io::Look>& looks);
 
   const std::vector<io::RawFix>& raw_fixes() const { return raw_fixes_; }
   const std::vector<io::TrajectoryPoint>& trajectory() const { return trajectory_; }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/clock_message.hpp"
+#include "common/diagnosis.hpp"
 #include "common/run_score.hpp"
 #include "common/state_news.hpp"
 #include "geoloc/io/output/object_report.hpp"
@@ -45,6 +46,26 @@ std::string count_of_damaged(const Session& session) {
   return fmt::format("{} more frames were damaged on their way and left out", session.frames_damaged());
 }
 
+std::string metres(const std::optional<double>& length_m) {
+  return length_m ? fmt::format("{:.3f} m", *length_m) : "–";
+}
+
+/// Why the score may not be that of the run; empty where it is.
+std::string doubts(const Score& score, const LeftOut& told) {
+  std::string lines;
+  if (!told.empty())
+    lines += fmt::format(
+        "\nleft out of the score, since known points tell their places: {} objects and their targets",
+        told.size());
+  if (score.found == 0 && score.nearest_m)
+    lines += fmt::format(
+        "\nno object is within {:g} m of a target: the nearest is {:.1f} m away. Are the true targets those "
+        "of "
+        "this flight, in the same datum?",
+        kFarthestMatch_m, *score.nearest_m);
+  return lines;
+}
+
 /// What a person should know besides the figures.
 std::string remarks(const Session& session) {
   std::string lines;
@@ -53,7 +74,9 @@ std::string remarks(const Session& session) {
         clock_message(session), count_of_damaged(session)}) {
     if (!news.empty()) lines += "\n" + news;
   }
-  return lines + unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
+  lines += unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
+  for (const std::string& sentence : diagnose(facts_of(session))) lines += "\n" + sentence;
+  return lines;
 }
 
 }  // namespace
@@ -84,14 +107,14 @@ std::string summarize_run(const Session& session, const std::vector<io::TrueTarg
                        session.history().raw_fixes().size(), frames, session.frames_unusable()) +
            also;
   }
-  const Score score = score_run(session, truth);
+  const auto [scored, told] = without_known_points(session, truth);
+  const Score score = score_run(session, scored, told);
   return fmt::format(
-             "found {} / {}, RMSE {:.3f} m (relative {:.3f} m), extra {}, merged pairs {}, {} frames ({} "
-             "without "
-             "vehicle state)",
-             score.found, score.targets, score.rmse_m, score.relative_rmse_m, score.extra, score.merged_pairs,
-             frames, session.frames_unusable()) +
-         also;
+             "found {} / {}, RMSE {} (relative {}), extra {}, merged pairs {}, {} frames ({} without vehicle "
+             "state)",
+             score.found, score.targets, metres(score.rmse_m), metres(score.relative_rmse_m), score.extra,
+             score.merged_pairs, frames, session.frames_unusable()) +
+         doubts(score, told) + also;
 }
 
 }  // namespace geoloc::apps

@@ -27,6 +27,24 @@ std::vector<Eigen::Vector2d> targets_in_enu(const std::vector<io::TrueTarget>& t
   return targets;
 }
 
+ScoredTruth without_known_points(const Session& session, const std::vector<io::TrueTarget>& truth) {
+  const Geolocator& geolocator = session.geolocator();
+  ScoredTruth scored;
+  std::vector<Eigen::Vector2d> known_in_enu;
+  for (std::size_t i = 0; i < geolocator.known_points().size() && geolocator.local_frame(); ++i) {
+    const KnownPointMatch& match = geolocator.known_points()[i];
+    if (match.status != KnownPointStatus::kMatched) continue;
+    scored.told.push_back(match.track_id);
+    const Geodetic place = geolocator.config().known_points[i].position;
+    known_in_enu.push_back(geolocator.local_frame()->to_local(place).position_in_enu);
+  }
+  const auto is_known = score_objects(targets_in_enu(truth, geolocator), known_in_enu).target_of_object;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (i >= is_known.size() || !is_known[i]) scored.targets.push_back(truth[i]);
+  }
+  return scored;
+}
+
 Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth, const LeftOut& left_out) {
   if (!session.geolocator().local_frame())
     return score_objects({}, std::vector<Eigen::Vector2d>(truth.size()));

@@ -17,6 +17,15 @@ using LeftOut = std::vector<std::uint64_t>;
 std::vector<Eigen::Vector2d> targets_in_enu(const std::vector<io::TrueTarget>& truth,
                                             const Geolocator& geolocator);
 
+struct ScoredTruth {
+  std::vector<io::TrueTarget> targets;
+  LeftOut told;
+};
+
+/// The true targets less those that the run was told by known points that it used, and the objects that stand
+/// for these.
+ScoredTruth without_known_points(const Session& session, const std::vector<io::TrueTarget>& truth);
+
 /// The run against the true targets.
 Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth,
                 const LeftOut& left_out = {});

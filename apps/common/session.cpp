@@ -37,6 +37,7 @@ bool Session::add_telemetry(HostTime received_at, const std::uint8_t* data, std:
 }
 
 void Session::on_frame(HostTime received_at, const std::uint8_t* frame, std::size_t size) {
+  note_telemetry(census_, received_at);
   if (on_telemetry_) on_telemetry_(received_at, frame, size);
 }
 
@@ -74,18 +75,27 @@ HostTime Session::gives_up_at(HostTime captured_at) const {
 }
 
 bool Session::process(const PendingFrame& frame) {
+  note_frame(census_, frame.captured_at, frame.detections, geolocator_.config().camera.intrinsics);
   const auto vehicle_time = link_.clock().to_vehicle(frame.captured_at);
   if (!vehicle_time) {
     ++frames_without_vehicle_;
+    ++census_.frames_without_vehicle;
     return false;
   }
   frame_.captured_at = *vehicle_time;
   frame_.captured_at_host = frame.captured_at;
   frame_.time_sigma_s = time_sigma_s(frame, link_.clock());
   frame_.detections = frame.detections;
-  if (!geolocator_.process(frame_)) return false;
+  frame_looks_.expect(geolocator_);
+  const std::uint64_t number = frames();
+  if (!geolocator_.process(frame_)) {
+    if (const auto reason = geolocator_.missing_state(*vehicle_time))
+      ++census_.frames_without_state[static_cast<std::size_t>(*reason)];
+    return false;
+  }
   news_.note_frame(geolocator_);
-  history_.note(geolocator_, frame.captured_at);
+  looks_ = frame_looks_.looks(geolocator_, frame.captured_at);
+  history_.note(geolocator_, frame.captured_at, number, looks_);
   return true;
 }
 

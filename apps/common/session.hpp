@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "common/estimation_config.hpp"
+#include "common/frame_looks.hpp"
+#include "common/run_census.hpp"
 #include "common/run_history.hpp"
 #include "common/state_news.hpp"
 #include "geoloc/io/mavlink/vehicle_link.hpp"
@@ -58,6 +60,10 @@ class Session final : private io::TelemetrySink {
 
   const Geolocator& geolocator() const { return geolocator_; }
   const RunHistory& history() const { return history_; }
+  const RunCensus& census() const { return census_; }
+
+  /// Of the frame located last, one for each of Geolocator::located().
+  const std::vector<io::Look>& looks() const { return looks_; }
   const io::VehicleLink& link() const { return link_; }
   io::VehicleLink& link() { return link_; }
   Duration max_frame_wait() const { return max_frame_wait_; }
@@ -87,9 +93,12 @@ class Session final : private io::TelemetrySink {
   io::VehicleLink link_;
   Geolocator geolocator_;
   RunHistory history_;
+  RunCensus census_;
   StateNews news_;
   OnTelemetry on_telemetry_;
   FrameDetections frame_;  // reused
+  FrameLooks frame_looks_;
+  std::vector<io::Look> looks_;
   std::uint64_t frames_damaged_ = 0;
   std::uint64_t frames_without_vehicle_ = 0;  // before its clock was known
 };

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
+#include "common/detector_options.hpp"
 #include "geoloc/io/host_clock.hpp"
 #include "geoloc/io/picture/picture_file.hpp"
 #include "geoloc/io/video/file_source.hpp"
@@ -16,11 +18,12 @@ namespace geoloc::apps {
 using Clock = std::chrono::steady_clock;
 
 DetectRun::DetectRun(io::Detector& detector, ResultWriter& results, const io::VideoConfig& video,
-                     std::size_t inputs)
+                     std::size_t inputs, double confidence)
     : detector_(detector),
       results_(results),
       video_(video),
       inputs_(inputs),
+      confidence_(confidence),
       is_terminal_(::isatty(STDERR_FILENO) == 1) {}
 
 void DetectRun::look_at(const DetectInput& input) {
@@ -84,20 +87,22 @@ void DetectRun::tell_unreadable(const std::string& reason) {
 }
 
 void DetectRun::show_progress(const SeenPicture& picture) {
+  constexpr auto kPeriod = std::chrono::milliseconds{200};
+  constexpr auto kLogPeriod = std::chrono::seconds{5};
   const auto now = Clock::now();
-  if (!is_terminal_ || now - started_ < std::chrono::seconds{1} ||
-      now - shown_ < std::chrono::milliseconds{200})
-    return;
+  const auto since = now - std::max(shown_, started_);
+  if (now - started_ < std::chrono::seconds{1} || since < (is_terminal_ ? kPeriod : kLogPeriod)) return;
   shown_ = now;
   const double rate =
       static_cast<double>(counts_.pictures) / std::chrono::duration<double>(now - started_).count();
   const std::string place = picture.frame ? fmt::format(", {:.1f} s of the video", picture.time_s) : "";
-  std::fprintf(stderr, "\r\033[Kfile %lu of %zu%s: %lu pictures, %.0f a second, %lu detections", files_,
-               inputs_, place.c_str(), counts_.pictures, rate, counts_.detections);
+  const std::string text = fmt::format("file {} of {}{}: {} pictures, {:.0f} a second, {} detections", files_,
+                                       inputs_, place, counts_.pictures, rate, counts_.detections);
+  std::fputs((is_terminal_ ? "\r\033[K" + text : text + "\n").c_str(), stderr);
 }
 
 void DetectRun::finish() {
-  if (std::exchange(shown_, {}) != Clock::time_point{}) std::fputs("\r\033[K", stderr);
+  if (std::exchange(shown_, {}) != Clock::time_point{} && is_terminal_) std::fputs("\r\033[K", stderr);
 }
 
 std::string DetectRun::summary() const {
@@ -106,6 +111,7 @@ std::string DetectRun::summary() const {
   std::string text = fmt::format("{} pictures, {} with detections, {} detections; {:.1f} ms a picture",
                                  counts_.pictures, counts_.with_detections, counts_.detections, mean_ms);
   const io::DetectorCounts detector = detector_.counts();
+  if (counts_.detections == 0) text += fmt::format("; {}", nothing_detected(detector, confidence_));
   if (detector.failed_images > 0)
     text += fmt::format("; the network failed on {} pictures", detector.failed_images);
   if (detector.rejected_boxes > 0)

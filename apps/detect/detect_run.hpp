@@ -25,8 +25,9 @@ class DetectRun {
     double detecting_s = 0.0;
   };
 
-  /// All must outlive the run. `inputs`: how many there will be.
-  DetectRun(io::Detector& detector, ResultWriter& results, const io::VideoConfig& video, std::size_t inputs);
+  /// All must outlive the run. `inputs`: how many there will be. `confidence`: the detector's threshold.
+  DetectRun(io::Detector& detector, ResultWriter& results, const io::VideoConfig& video, std::size_t inputs,
+            double confidence);
 
   /// Throws std::runtime_error where results cannot be written.
   void look_at(const DetectInput& input);
@@ -50,6 +51,7 @@ class DetectRun {
   ResultWriter& results_;
   io::VideoConfig video_;
   std::size_t inputs_;
+  double confidence_;
   StopSignal stop_;
   Counts counts_;
   std::uint64_t files_ = 0;

@@ -138,7 +138,7 @@ void draw_series(const ChartSeries& series, const Plane& plane, std::string& svg
                      series.style % kStyles, x, plane.y.px(point.y - point.sigma_y),
                      plane.y.px(point.y + point.sigma_y));
     }
-    draw_mark(x, y, series.style, series.is_line ? 4.0 : 3.0, marks);
+    if (series.has_marks) draw_mark(x, y, series.style, series.is_line ? 4.0 : 3.0, marks);
   }
   if (series.is_line)
     fmt::format_to(out, "<polyline class=\"gc-line gc-{}\" points=\"{}\"/>", series.style % kStyles, line);
@@ -203,7 +203,7 @@ std::string to_svg_element(const Chart& chart) {
 
 std::string to_svg_file(const Chart& chart) {
   return draw(
-      chart, " width=\"690\" xmlns=\"http://www.w3.org/2000/svg\"",
+      chart, " width=\"100%\" height=\"100%\" xmlns=\"http://www.w3.org/2000/svg\"",
       "<style>" + chart_css() + "</style>\n<rect class=\"gc-back\" width=\"100%\" height=\"100%\"/>\n");
 }
 

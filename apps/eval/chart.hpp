@@ -25,6 +25,7 @@ struct ChartSeries {
   int style = 0;
   bool is_line = false;
   std::vector<ChartPoint> points;
+  bool has_marks = true;  ///< at its points
 };
 
 /// A line of texts under the axis, each at its place.

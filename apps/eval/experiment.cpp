@@ -135,7 +135,7 @@ void run_task(const Experiment& experiment, const Task& task, std::vector<RunRes
   const EstimationConfig estimation = estimation_over(settings.terrain, frame, experiment);
   for (std::size_t m = 0; m < experiment.contenders.size(); ++m) {
     results[task.first_result + m] =
-        run_method({flight, settings.run, frames, truth}, experiment.contenders[m], estimation);
+        run_method({flight, settings.run, frames, truth, true}, experiment.contenders[m], estimation);
   }
 }
 
@@ -166,8 +166,13 @@ RunResult run_method(const SimulatedRun& run, const Contender& contender, Estima
   config.geolocator.method = contender.method;
   config.geolocator.known_points = survey.points;
   Session session(config);
-  replay(run.flight.telemetry, run.frames, session);
+  RunProgress progress;
+  replay(run.flight.telemetry, run.frames, session, [&](const PendingFrame& frame, bool) {
+    if (run.wants_progress) progress.observe(session, frame.captured_at, run.truth);
+    return true;
+  });
   RunResult result;
+  result.progress = progress.samples();
   result.flight = run.flight.name;
   result.scenario = run.settings.scenario;
   result.seed = run.settings.seed;

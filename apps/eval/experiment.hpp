@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/estimation_config.hpp"
+#include "eval/run_progress.hpp"
 #include "geoloc/evaluation/score.hpp"
 #include "geoloc/sim/flight/recording_generator.hpp"
 
@@ -67,6 +68,7 @@ struct RunResult {
   int known_points_used = 0;
   int known_points_mistaken = 0;  ///< used, and taken for another target
   std::optional<CalibrationError> calibration;
+  std::vector<ProgressSample> progress;  ///< where it was asked for
 };
 
 /// What an estimator is given, and what only its judge knows.
@@ -75,6 +77,7 @@ struct SimulatedRun {
   const sim::RunSettings& settings;
   const std::vector<io::RecordedFrame>& frames;
   const std::vector<io::TrueTarget>& truth;
+  bool wants_progress = false;
 };
 
 /// One estimator on one run. Camera, method and known points of `config` are set here.

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "eval/mean.hpp"
+
 namespace geoloc::apps {
 namespace {
 
@@ -67,38 +69,58 @@ std::string name_of(const Contender& contender) {
                                      : fmt::format("joint, {} known points", contender.known_points);
 }
 
+std::string three_decimals(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3f}", *value) : "–";
+}
+
+std::string two_decimals(const std::optional<double>& value) {
+  return value ? fmt::format("{:.2f}", *value) : "–";
+}
+
+nlohmann::ordered_json number_or_null(const std::optional<double>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
 std::string table_cell(const std::vector<RunResult>& results, const std::string& flight, int scenario,
                        const Contender& contender) {
-  double rmse_m = 0.0, found = 0.0;
+  Mean rmse_m;
+  double found = 0.0;
   int runs = 0;
   for (const RunResult& run : results) {
     if (run.flight != flight || run.scenario != scenario || !(run.contender == contender)) continue;
     ++runs;
-    rmse_m += run.score.rmse_m;
+    rmse_m.add(run.score.rmse_m);
     found += run.score.found;
   }
-  return runs == 0 ? "" : fmt::format("{:.3f} / {:.3g}", rmse_m / runs, found / runs);
+  return runs == 0 ? "" : fmt::format("{} / {:.3g}", three_decimals(rmse_m.value()), found / runs);
 }
 
 std::vector<Summary> summarize(const std::vector<RunResult>& results) {
+  struct Means {
+    Mean rmse_m, relative_rmse_m, nees;
+  };
   std::vector<Summary> summaries;
+  std::vector<Means> means;
   for (const RunResult& run : results) {
     Summary& summary = summary_of(summaries, run);
+    means.resize(summaries.size());
+    Means& mean = means[static_cast<std::size_t>(&summary - summaries.data())];
     ++summary.runs;
-    summary.mean_rmse_m += run.score.rmse_m;
-    summary.mean_relative_rmse_m += run.score.relative_rmse_m;
+    mean.rmse_m.add(run.score.rmse_m);
+    mean.relative_rmse_m.add(run.score.relative_rmse_m);
+    if (run.score.found > 0) mean.nees.add(run.nees);
     summary.found += run.score.found;
     summary.targets += run.score.targets;
     summary.extra += run.score.extra;
     summary.merged_pairs += run.score.merged_pairs;
-    summary.mean_nees += run.nees;
     if (run.heights) summary.mean_relative_height_rmse_m += run.heights->relative_rmse_m;
     if (run.calibration) add_calibration(summary, *run.calibration);
   }
-  for (Summary& summary : summaries) {
-    summary.mean_rmse_m /= summary.runs;
-    summary.mean_relative_rmse_m /= summary.runs;
-    summary.mean_nees /= summary.runs;
+  for (std::size_t i = 0; i < summaries.size(); ++i) {
+    Summary& summary = summaries[i];
+    summary.mean_rmse_m = means[i].rmse_m.value();
+    summary.mean_relative_rmse_m = means[i].relative_rmse_m.value();
+    summary.mean_nees = means[i].nees.value();
     summary.mean_relative_height_rmse_m /= summary.runs;
   }
   return summaries;
@@ -113,11 +135,10 @@ std::string to_markdown(const std::vector<RunResult>& results) {
   const auto out = std::back_inserter(text);
   for (const Summary& s : summaries) {
     fmt::format_to(
-        out,
-        "| {} | {} | {} | {:.3f} | {:.3f} | {}/{} | {} | {} | {:.2f} | {:.3f} | {:.2f} | {:.1f} | {:.3f} |\n",
-        s.set, name_of(s.contender), s.runs, s.mean_rmse_m, s.mean_relative_rmse_m, s.found, s.targets,
-        s.extra, s.merged_pairs, s.mean_nees, s.worst_latency_error_s, s.worst_boresight_error_deg,
-        s.worst_sigmas, s.mean_relative_height_rmse_m);
+        out, "| {} | {} | {} | {} | {} | {}/{} | {} | {} | {} | {:.3f} | {:.2f} | {:.1f} | {:.3f} |\n", s.set,
+        name_of(s.contender), s.runs, three_decimals(s.mean_rmse_m), three_decimals(s.mean_relative_rmse_m),
+        s.found, s.targets, s.extra, s.merged_pairs, two_decimals(s.mean_nees), s.worst_latency_error_s,
+        s.worst_boresight_error_deg, s.worst_sigmas, s.mean_relative_height_rmse_m);
   }
   for (const Summary& s : summaries) {
     fmt::format_to(out, "\n{}, {}: RMSE m / targets found, means over the seeds\n\n", s.set,
@@ -139,8 +160,8 @@ nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
                     {"scenario", run.scenario},
                     {"seed", run.seed},
                     {"method", name_of(run.contender)},
-                    {"rmse_m", run.score.rmse_m},
-                    {"relative_rmse_m", run.score.relative_rmse_m},
+                    {"rmse_m", number_or_null(run.score.rmse_m)},
+                    {"relative_rmse_m", number_or_null(run.score.relative_rmse_m)},
                     {"found", run.score.found},
                     {"targets", run.score.targets},
                     {"extra", run.score.extra},
@@ -158,13 +179,13 @@ nlohmann::ordered_json to_json(const std::vector<RunResult>& results) {
     summaries.push_back({{"set", s.set},
                          {"method", name_of(s.contender)},
                          {"runs", s.runs},
-                         {"mean_rmse_m", s.mean_rmse_m},
-                         {"mean_relative_rmse_m", s.mean_relative_rmse_m},
+                         {"mean_rmse_m", number_or_null(s.mean_rmse_m)},
+                         {"mean_relative_rmse_m", number_or_null(s.mean_relative_rmse_m)},
                          {"found", s.found},
                          {"targets", s.targets},
                          {"extra", s.extra},
                          {"merged_pairs", s.merged_pairs},
-                         {"mean_nees", s.mean_nees},
+                         {"mean_nees", number_or_null(s.mean_nees)},
                          {"mean_relative_height_rmse_m", s.mean_relative_height_rmse_m},
                          {"worst_latency_error_s", s.worst_latency_error_s},
                          {"worst_boresight_error_deg", s.worst_boresight_error_deg},
@@ -180,7 +201,7 @@ std::vector<RunPair> pairs_of(const std::vector<RunResult>& runs) {
     const auto joint = std::find_if(runs.begin(), runs.end(), [&](const RunResult& run) {
       return run.contender == Contender{Method::kJoint, 0} && is_same_run(run, paper);
     });
-    if (joint != runs.end()) pairs.push_back({&paper, &*joint});
+    if (joint != runs.end() && paper.score.rmse_m && joint->score.rmse_m) pairs.push_back({&paper, &*joint});
   }
   return pairs;
 }

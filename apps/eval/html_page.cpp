@@ -10,6 +10,7 @@
 #include "eval/chart.hpp"
 #include "eval/experiment_report.hpp"
 #include "eval/html_table.hpp"
+#include "eval/page_style.hpp"
 #include "eval/run_charts.hpp"
 #include "eval/sweep_report.hpp"
 #include "geoloc/io/output/markup.hpp"
@@ -33,23 +34,6 @@ constexpr std::array<std::array<PublishedRun, 3>, kPaths> kPublished{{
     {{{0.65, 29}, {0.64, 29}, {0.67, 30}}},
 }};
 constexpr double kPublishedRmse_m = 0.603;
-
-constexpr const char* kPageStyle =
-    R"(*{box-sizing:border-box}body{margin:0;background:var(--page);color:var(--ink);font:16px/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,sans-serif}
-main{max-width:1080px;margin:0 auto;padding:28px 16px 64px}h1{font-size:1.75rem;line-height:1.2;margin:0 0 6px}
-h2{font-size:1.2rem;margin:44px 0 4px}p{margin:6px 0 14px;max-width:70ch}.lead{color:var(--soft)}
-.tiles{display:grid;grid-template-columns:repeat(auto-fit,minmax(150px,1fr));gap:12px;margin:22px 0 8px}
-.tile{background:var(--card);border:1px solid var(--line);border-radius:10px;padding:12px 14px}
-.tile b{display:block;font-size:1.45rem;line-height:1.25;font-variant-numeric:tabular-nums}.tile.ours b{color:var(--best)}
-.tile span{display:block;font-size:.82rem;color:var(--soft)}
-.scroll{overflow-x:auto;margin:10px 0 18px}table{border-collapse:collapse;font-size:.875rem;font-variant-numeric:tabular-nums;min-width:100%}
-caption{text-align:left;font-weight:600;padding:4px 0}th,td{padding:5px 9px;text-align:right;white-space:nowrap;border-bottom:1px solid var(--line)}
-th:first-child{text-align:left;padding-left:0}thead th{color:var(--soft);font-weight:500;vertical-align:bottom;white-space:normal;line-height:1.25}tbody th{font-weight:500}
-.charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,340px),1fr));gap:18px;margin:14px 0}
-.charts figure{margin:0;background:var(--card);border:1px solid var(--line);border-radius:10px;padding:10px 8px}
-@media (max-width:600px){table{font-size:.75rem}th,td{padding:5px 4px}}
-.gc{display:block;width:100%;height:auto}
-)";
 
 std::string paragraph(const std::string& text) {
   return "<p>" + text + "</p>\n";
@@ -75,7 +59,7 @@ std::string tiles(const std::vector<Summary>& summaries) {
       tile("", fmt::format("{:.3f} m", kPublishedRmse_m), "published: RMSE, 529 / 540 found, other flights");
   for (const Summary& s : summaries) {
     html += tile(
-        s.contender.method == Method::kJoint ? "ours" : "", fmt::format("{:.3f} m", s.mean_rmse_m),
+        s.contender.method == Method::kJoint ? "ours" : "", three_decimals(s.mean_rmse_m) + " m",
         fmt::format("{}, {} flights: RMSE, {} / {} found", name_of(s.contender), s.set, s.found, s.targets));
   }
   return html + "</div>\n";
@@ -90,9 +74,9 @@ std::string summary_table(const std::vector<Summary>& summaries) {
   for (const Summary& s : summaries) {
     const bool calibrates = s.contender.method == Method::kJoint;
     table.rows.push_back({fmt::format("{}, {}", s.set, name_of(s.contender)), std::to_string(s.runs),
-                          fmt::format("{:.3f}", s.mean_rmse_m), fmt::format("{:.3f}", s.mean_relative_rmse_m),
+                          three_decimals(s.mean_rmse_m), three_decimals(s.mean_relative_rmse_m),
                           fmt::format("{}/{}", s.found, s.targets), std::to_string(s.extra),
-                          std::to_string(s.merged_pairs), fmt::format("{:.2f}", s.mean_nees),
+                          std::to_string(s.merged_pairs), two_decimals(s.mean_nees),
                           calibrates ? fmt::format("{:.3f}", s.worst_latency_error_s) : "",
                           calibrates ? fmt::format("{:.2f}", s.worst_boresight_error_deg) : ""});
   }
@@ -136,8 +120,8 @@ std::string worst_run(const std::vector<RunResult>& runs) {
                   "scenario {}, seed {}: {:.3f} m against {:.3f} m ({:+.3f} m).",
                   std::count_if(pairs.begin(), pairs.end(), is_worse), pairs.size(),
                   std::count_if(pairs.begin(), pairs.end(), finds_fewer), worst->joint->flight,
-                  worst->joint->scenario, worst->joint->seed, worst->joint->score.rmse_m,
-                  worst->paper->score.rmse_m, worst->rmse_difference_m()));
+                  worst->joint->scenario, worst->joint->seed, *worst->joint->score.rmse_m,
+                  *worst->paper->score.rmse_m, worst->rmse_difference_m()));
 }
 
 std::string table_section(const std::vector<RunResult>& runs) {
@@ -162,27 +146,46 @@ std::string table_section(const std::vector<RunResult>& runs) {
   return html;
 }
 
-std::string run_section(const EvalResults& results) {
-  std::vector<Chart> charts;
-  for (NamedChart& named : run_charts(results)) charts.push_back(std::move(named.chart));
-  if (charts.empty()) return "";
-  return figures(charts) +
-         paragraph(
-             "Below the dotted line of the first picture joint is better. Of mounting error and latency the "
-             "estimator is told nothing; bars are the sigma it states, the dotted line is the truth. A NEES "
-             "of 2 "
-             "is right; above it the method is too sure of itself.");
+/// How to read the pictures that there are.
+std::string notes_on(const std::vector<NamedChart>& charts) {
+  struct Note {
+    const char* chart;
+    const char* text;
+  };
+  constexpr Note kNotes[] = {
+      {"methods", "Every run: below the dotted line joint is better. "},
+      {"boresight",
+       "Mounting error: bars are the sigma that the estimator states, the dotted line is the truth. "},
+      {"latency", "Latency: bars are the sigma that the estimator states, the dotted line is the truth. "},
+      {"consistency", "A NEES of 2 is right; above it the method is too sure of itself. "},
+      {"error_over_time", "Over time: means over the runs, up to the end of the shortest. "}};
+  std::string notes;
+  for (const Note& note : kNotes) {
+    const bool is_there = std::any_of(charts.begin(), charts.end(),
+                                      [&note](const NamedChart& named) { return named.name == note.chart; });
+    if (is_there) notes += note.text;
+  }
+  return notes;
 }
 
-std::string sweep_section(const std::vector<SweepResult>& sweeps) {
+std::string run_section(const EvalResults& results) {
+  const std::vector<NamedChart> named = run_charts(results);
+  if (named.empty()) return "";
+  std::vector<Chart> charts;
+  for (const NamedChart& chart : named) charts.push_back(chart.chart);
+  return figures(charts) + paragraph(notes_on(named));
+}
+
+std::string sweep_section(const std::vector<SweepResult>& sweeps, const ReportContext& context) {
   if (sweeps.empty()) return "";
   std::vector<Chart> charts;
   for (const SweepResult& sweep : sweeps) charts.push_back(chart_of(sweep));
-  return heading("One circumstance varied at a time") +
-         paragraph(fmt::format(
-             "Stock flights, scenario 1: {} runs a point and method. Every setting of the estimator "
-             "stays at its default; the dotted line is the value of all other runs.",
-             cells_of(sweeps.front().points.front()).front().runs)) +
+  return heading("One circumstance or setting varied at a time") +
+         paragraph(
+             fmt::format("Stock flights, scenario 1: {} runs a point and method. All else stays as it is, "
+                         "settings {}; the dotted line is the usual value.",
+                         cells_of(sweeps.front().points.front()).front().runs,
+                         context.settings.empty() ? "at their defaults" : "as above")) +
          figures(charts);
 }
 
@@ -196,9 +199,9 @@ std::string rendered_section(const std::vector<RenderedRun>& runs) {
     table.rows.push_back(
         {fmt::format("scenario {}, {}", run.from_model.scenario, name_of(run.from_model.contender)),
          std::to_string(run.frames), fmt::format("{}/{}", pictures.found, pictures.targets),
-         std::to_string(pictures.extra), fmt::format("{:.3f}", pictures.rmse_m),
+         std::to_string(pictures.extra), three_decimals(pictures.rmse_m),
          fmt::format("{}/{}", model.found, model.targets), std::to_string(model.extra),
-         fmt::format("{:.3f}", model.rmse_m), fmt::format("{:.2f}", rmse_ratio(run))});
+         three_decimals(model.rmse_m), two_decimals(rmse_ratio(run))});
   }
   return heading("With rendered pictures and the real detector") +
          paragraph(fmt::format(
@@ -208,9 +211,20 @@ std::string rendered_section(const std::vector<RenderedRun>& runs) {
          to_html(table);
 }
 
+std::string context_section(const ReportContext& context) {
+  std::string html =
+      paragraph(fmt::format("<code>{}</code><br>{}, geoloc {}", io::escape_markup(context.command),
+                            context.made_at, context.version));
+  if (context.settings.empty()) return html + paragraph("All settings of the estimator are the defaults.");
+  std::string list;
+  for (const std::string& setting : context.settings) list += io::escape_markup(setting) + "\n";
+  return html + paragraph("Settings of the estimator that are not the defaults:") + "<pre>" + list +
+         "</pre>\n";
+}
+
 }  // namespace
 
-std::string to_html(const EvalResults& results) {
+std::string to_html(const EvalResults& results, const ReportContext& context) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>geoloc: "
@@ -221,11 +235,12 @@ std::string to_html(const EvalResults& results) {
   html +=
       "<p class=\"lead\">Recorded ArduPilot flights, simulated camera. <b>paper</b> is the published method, "
       "<b>joint</b> "
-      "the self-calibrating one. Frames are late and the camera is mounted askew; neither method is "
-      "told.</p>\n";
+      "the self-calibrating one. Frames are late and the camera is mounted askew, which the defaults do not "
+      "tell either method.</p>\n";
+  html += context_section(context);
   if (!results.runs.empty()) html += table_section(results.runs);
   html += run_section(results);
-  html += sweep_section(results.sweeps);
+  html += sweep_section(results.sweeps, context);
   html += rendered_section(results.rendered);
   return html + "</main></body></html>\n";
 }

@@ -18,11 +18,11 @@ std::string rendered_to_markdown(const std::vector<RenderedRun>& runs) {
   for (const RenderedRun& run : runs) {
     const RunResult& pictures = run.from_pictures;
     const Score& model = run.from_model.score;
-    fmt::format_to(std::back_inserter(text),
-                   "| {} | {} | {} | {} | {}/{} | {} | {:.3f} | {}/{} | {} | {:.3f} | {:.2f} |\n",
-                   pictures.flight, pictures.scenario, name_of(pictures.contender), run.frames,
-                   pictures.score.found, pictures.score.targets, pictures.score.extra, pictures.score.rmse_m,
-                   model.found, model.targets, model.extra, model.rmse_m, rmse_ratio(run));
+    fmt::format_to(
+        std::back_inserter(text), "| {} | {} | {} | {} | {}/{} | {} | {} | {}/{} | {} | {} | {} |\n",
+        pictures.flight, pictures.scenario, name_of(pictures.contender), run.frames, pictures.score.found,
+        pictures.score.targets, pictures.score.extra, three_decimals(pictures.score.rmse_m), model.found,
+        model.targets, model.extra, three_decimals(model.rmse_m), two_decimals(rmse_ratio(run)));
   }
   return text;
 }

@@ -85,9 +85,10 @@ void record(const std::filesystem::path& folder, const sim::Flight& flight,
 
 }  // namespace
 
-double rmse_ratio(const RenderedRun& run) {
+std::optional<double> rmse_ratio(const RenderedRun& run) {
   const Score &pictures = run.from_pictures.score, &model = run.from_model.score;
-  return pictures.found > 0 && model.found > 0 ? pictures.rmse_m / model.rmse_m : 0.0;
+  if (!pictures.rmse_m || !model.rmse_m) return std::nullopt;
+  return *pictures.rmse_m / *model.rmse_m;
 }
 
 std::vector<RenderedRun> run_rendered(

@@ -31,8 +31,8 @@ struct RenderedRun {
   std::size_t frames = 0;
 };
 
-/// How much worse the pictures are; 0 where either run found nothing.
-double rmse_ratio(const RenderedRun& run);
+/// How much worse the pictures are; nullopt where either run found nothing.
+std::optional<double> rmse_ratio(const RenderedRun& run);
 
 /// Each scenario of the experiment with each method, in this order. Pictures are drawn and looked at as fast
 /// as the threads allow; their number changes nothing. Throws std::runtime_error for a flight or a model that

@@ -22,6 +22,13 @@ std::string named_block(const char* name, const std::string& text) {
   return text.empty() ? "" : fmt::format("<!-- begin {0} -->\n{1}<!-- end {0} -->\n", name, text);
 }
 
+/// Each between two comments that name it, so that docs/results.md can take it over.
+std::string named_tables(const EvalResults& results) {
+  return named_block("table", results.runs.empty() ? "" : to_markdown(results.runs)) +
+         named_block("sweeps", sweeps_to_markdown(results.sweeps)) +
+         named_block("rendered", rendered_to_markdown(results.rendered));
+}
+
 std::string to_json_text(const EvalResults& results) {
   auto document = to_json(results.runs);
   if (!results.sweeps.empty()) document["sweeps"] = sweeps_to_json(results.sweeps);
@@ -32,9 +39,8 @@ std::string to_json_text(const EvalResults& results) {
 }  // namespace
 
 std::string to_markdown(const EvalResults& results) {
-  return named_block("table", results.runs.empty() ? "" : to_markdown(results.runs)) +
-         named_block("sweeps", sweeps_to_markdown(results.sweeps)) +
-         named_block("rendered", rendered_to_markdown(results.rendered));
+  return (results.runs.empty() ? "" : to_markdown(results.runs)) + sweeps_to_markdown(results.sweeps) +
+         rendered_to_markdown(results.rendered);
 }
 
 void check_report_folder(const std::filesystem::path& folder, const NamedFiles& inputs) {
@@ -46,9 +52,10 @@ void check_report_folder(const std::filesystem::path& folder, const NamedFiles& 
                 inputs);
 }
 
-void write_report(const std::filesystem::path& folder, const EvalResults& results) {
-  io::write_file_atomically(folder / kPage, to_html(results));
-  io::write_file_atomically(folder / kTables, to_markdown(results));
+void write_report(const std::filesystem::path& folder, const EvalResults& results,
+                  const ReportContext& context) {
+  io::write_file_atomically(folder / kPage, to_html(results, context));
+  io::write_file_atomically(folder / kTables, named_tables(results));
   io::write_file_atomically(folder / kData, to_json_text(results));
   for (const NamedChart& named : run_charts(results))
     io::write_file_atomically(folder / (named.name + ".svg"), to_svg_file(named.chart));

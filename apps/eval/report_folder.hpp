@@ -6,10 +6,11 @@
 
 #include "common/output_files.hpp"
 #include "eval/eval_results.hpp"
+#include "eval/report_context.hpp"
 
 namespace geoloc::apps {
 
-/// The tables. Each stands between two comments that name it, so that docs/results.md can take it over.
+/// The tables, for a terminal.
 std::string to_markdown(const EvalResults& results);
 
 /// Makes the folder. Throws std::runtime_error where it cannot be made or written to, is a recording, or
@@ -18,6 +19,7 @@ void check_report_folder(const std::filesystem::path& folder, const NamedFiles& 
 
 /// report.html, report.md, report.json and the pictures: those of run_charts() and sweep_NAME.svg. Throws
 /// std::runtime_error naming a file that cannot be written and the reason.
-void write_report(const std::filesystem::path& folder, const EvalResults& results);
+void write_report(const std::filesystem::path& folder, const EvalResults& results,
+                  const ReportContext& context);
 
 }  // namespace geoloc::apps

@@ -2,8 +2,10 @@
 #include "eval/run_charts.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "eval/experiment_report.hpp"
+#include "eval/progress_charts.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -35,7 +37,7 @@ Chart methods_chart(const std::vector<RunResult>& runs) {
   chart.has_diagonal = true;
   for (const RunPair& pair : pairs_of(runs)) {
     series_of_set(chart, set_of(pair.joint->flight))
-        .points.push_back({pair.paper->score.rmse_m, pair.joint->score.rmse_m, 0.0});
+        .points.push_back({*pair.paper->score.rmse_m, *pair.joint->score.rmse_m, 0.0});
   }
   return chart;
 }
@@ -107,6 +109,7 @@ std::vector<NamedChart> run_charts(const EvalResults& results) {
                                  {"consistency", consistency_chart(results.runs)}};
   const auto is_empty = [](const NamedChart& named) { return named.chart.series.empty(); };
   charts.erase(std::remove_if(charts.begin(), charts.end(), is_empty), charts.end());
+  for (NamedChart& named : progress_charts(results.runs)) charts.push_back(std::move(named));
   return charts;
 }
 

@@ -16,7 +16,7 @@ Survey make_survey(std::vector<io::TrueTarget> targets, int count, std::uint64_t
     const auto chosen = targets.begin() + random.index(static_cast<int>(targets.size()));
     const Eigen::Vector2d error = kSigma_m * Eigen::Vector2d(random.normal(), random.normal());
     KnownPoint point;
-    point.name = std::to_string(chosen->id);
+    point.name = io::to_text(chosen->id);
     point.position = frame.to_geodetic(frame.to_local(chosen->position).position_in_enu + error);
     point.sigma_m = kSigma_m;
     survey.points.push_back(point);

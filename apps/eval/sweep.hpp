@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "common/estimation_config.hpp"
 #include "geoloc/sim/flight/recording_generator.hpp"
 
 namespace geoloc::apps {
 
-/// One circumstance of a run, varied while all others, and every setting of the estimator, stay the usual
-/// ones.
+/// One circumstance of a run, or one setting of the estimator, varied while all others stay the usual ones.
 struct Sweep {
   std::string name;
   std::string title;
@@ -27,6 +27,8 @@ struct Sweep {
   std::function<void(double value, const sim::Flight& flight, sim::RecordingSettings& settings)> apply = {};
   /// The targets at a value; empty: those of the scenario.
   std::function<std::vector<Eigen::Vector2d>(double value, std::uint64_t seed)> targets_at = {};
+  /// What the estimator is told at a value; empty: as always.
+  std::function<void(double value, EstimationConfig& config)> configure = {};
 };
 
 /// All there are.

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "eval/experiment_report.hpp"
+#include "eval/mean.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -35,25 +36,28 @@ int style_of(const Contender& contender) {
 }  // namespace
 
 std::vector<SweepCell> cells_of(const SweepPoint& point) {
+  struct Means {
+    Mean rmse_m, relative_rmse_m, nees;
+  };
   std::vector<SweepCell> cells;
-  std::vector<int> runs_with_objects;
+  std::vector<Means> means;
   for (const RunResult& run : point.runs) {
     SweepCell& cell = cell_for(cells, run.contender);
-    runs_with_objects.resize(cells.size());
+    means.resize(cells.size());
     ++cell.runs;
     cell.found += run.score.found;
     cell.targets += run.score.targets;
     cell.extra += run.score.extra;
     cell.merged_pairs += run.score.merged_pairs;
-    if (run.score.found == 0) continue;
-    ++runs_with_objects[static_cast<std::size_t>(&cell - cells.data())];
-    cell.mean_rmse_m += run.score.rmse_m;
-    cell.mean_relative_rmse_m += run.score.relative_rmse_m;
-    cell.mean_nees += run.nees;
+    Means& mean = means[static_cast<std::size_t>(&cell - cells.data())];
+    mean.rmse_m.add(run.score.rmse_m);
+    mean.relative_rmse_m.add(run.score.relative_rmse_m);
+    if (run.score.found > 0) mean.nees.add(run.nees);
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    for (double* mean : {&cells[i].mean_rmse_m, &cells[i].mean_relative_rmse_m, &cells[i].mean_nees})
-      *mean /= std::max(1, runs_with_objects[i]);
+    cells[i].mean_rmse_m = means[i].rmse_m.value();
+    cells[i].mean_relative_rmse_m = means[i].relative_rmse_m.value();
+    cells[i].mean_nees = means[i].nees.value();
   }
   return cells;
 }
@@ -77,7 +81,7 @@ Chart chart_of(const SweepResult& result) {
       chart.series[m].name = name_of(cell.contender);
       chart.series[m].style = style;
       chart.series[m].is_line = true;
-      if (cell.found > 0) chart.series[m].points.push_back({point.value, cell.mean_rmse_m, 0.0});
+      if (cell.mean_rmse_m) chart.series[m].points.push_back({point.value, *cell.mean_rmse_m, 0.0});
       found[m].name = "found %";
       extra[m].name = "extra";
       found[m].style = extra[m].style = style;
@@ -105,9 +109,10 @@ std::string sweeps_to_markdown(const std::vector<SweepResult>& results) {
       for (const SweepCell& cell : cells_of(point)) {
         const std::string in_view =
             result.sweep.leaves_targets_out ? fmt::format(" ({} in view)", point.in_view) : "";
-        fmt::format_to(out, "| {:g} | {} | {:.3f} | {:.3f} | {}/{}{} | {} | {} | {:.2f} |\n", point.value,
-                       name_of(cell.contender), cell.mean_rmse_m, cell.mean_relative_rmse_m, cell.found,
-                       cell.targets, in_view, cell.extra, cell.merged_pairs, cell.mean_nees);
+        fmt::format_to(out, "| {:g} | {} | {} | {} | {}/{}{} | {} | {} | {} |\n", point.value,
+                       name_of(cell.contender), three_decimals(cell.mean_rmse_m),
+                       three_decimals(cell.mean_relative_rmse_m), cell.found, cell.targets, in_view,
+                       cell.extra, cell.merged_pairs, two_decimals(cell.mean_nees));
       }
     }
   }
@@ -123,13 +128,13 @@ nlohmann::ordered_json sweeps_to_json(const std::vector<SweepResult>& results) {
         points.push_back({{"value", point.value},
                           {"method", name_of(cell.contender)},
                           {"runs", cell.runs},
-                          {"mean_rmse_m", cell.mean_rmse_m},
-                          {"mean_relative_rmse_m", cell.mean_relative_rmse_m},
+                          {"mean_rmse_m", number_or_null(cell.mean_rmse_m)},
+                          {"mean_relative_rmse_m", number_or_null(cell.mean_relative_rmse_m)},
                           {"found", cell.found},
                           {"targets", cell.targets},
                           {"extra", cell.extra},
                           {"merged_pairs", cell.merged_pairs},
-                          {"mean_nees", cell.mean_nees}});
+                          {"mean_nees", number_or_null(cell.mean_nees)}});
         if (result.sweep.leaves_targets_out) points.back()["in_view"] = point.in_view;
       }
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,13 +15,13 @@ namespace geoloc::apps {
 struct SweepCell {
   Contender contender;
   int runs = 0;
-  double mean_rmse_m = 0.0;  ///< over the runs that found anything
-  double mean_relative_rmse_m = 0.0;
+  std::optional<double> mean_rmse_m;  ///< over the runs that found anything
+  std::optional<double> mean_relative_rmse_m;
   int found = 0;
   int targets = 0;
   int extra = 0;
   int merged_pairs = 0;
-  double mean_nees = 0.0;
+  std::optional<double> mean_nees;
 };
 
 /// One for each method, in the order of the runs.

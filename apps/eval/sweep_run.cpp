@@ -54,7 +54,8 @@ SweepPoint run_step(const Experiment& experiment, const Sweep& sweep, double val
     const auto frames = sim::generate_frames(flight, settings, targets_in_enu);
     const auto truth =
         sim::true_targets(sim::standing_on(settings.terrain, targets_in_enu), flight.truth.frame());
-    const EstimationConfig estimation = estimation_over(settings.terrain, flight.truth.frame(), experiment);
+    EstimationConfig estimation = estimation_over(settings.terrain, flight.truth.frame(), experiment);
+    if (sweep.configure) sweep.configure(value, estimation);
     for (const Contender& contender : experiment.contenders) {
       if (contender.known_points > 0) continue;
       point.runs.push_back(run_method({flight, settings.run, frames, truth}, contender, estimation));

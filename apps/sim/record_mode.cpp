@@ -9,13 +9,14 @@
 #include "geoloc/sim/flight/recording_generator.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/sim/live/rangefinder.hpp"
+#include "sim/option_groups.hpp"
 
 namespace geoloc::sim {
 
 CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
   DetectorModel& detector = options.detector;
   const auto add = [&program](const char* name, auto& value, const char* help) {
-    return program.add_option(name, value, help)->group("Recording without video");
+    return program.add_option(name, value, help)->group(kRecordGroup);
   };
   CLI::Option* const record = add("--record", options.folder, "Write a recording into this new folder");
   add("--pixel-noise", detector.pixel_noise_px, "1-sigma of a box's centre, px")->capture_default_str();
@@ -33,7 +34,7 @@ CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
   program
       .add_flag("--rangefinder", options.has_rangefinder,
                 "The vehicle measures the distance to the ground below it (DISTANCE_SENSOR)")
-      ->group("Recording without video");
+      ->group(kRecordGroup);
   return record;
 }
 

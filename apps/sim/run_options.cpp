@@ -6,6 +6,7 @@
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/sim/live/state_jumps.hpp"
+#include "sim/option_groups.hpp"
 
 namespace geoloc::sim {
 
@@ -15,50 +16,52 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   const auto add = [&program](const char* group, const char* name, auto& value, const char* help) {
     return program.add_option(name, value, help)->group(group);
   };
-  constexpr const char* kFlight = "Flight (recordings and live)";
-  add(kFlight, "--flight", options.flight, "Name of the flight; an unknown one lists them")
+  add(kFlightGroup, "--flight", options.flight, "Name of the flight; an unknown one lists them")
       ->capture_default_str();
-  add(kFlight, "--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
-  add(kFlight, "--scenario", settings.scenario, "Targets: 1 spread, 2 tight clusters, 3 grid")
-      ->capture_default_str();
-  add(kFlight, "--pairs-m", settings.pair_distance_m, "Targets in pairs so far apart instead, m");
-  add(kFlight, "--raise-m", options.raised_m, "Fly so much higher than was flown (20 m), m")
+  add(kFlightGroup, "--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
+  CLI::Option* const scenario =
+      add(kFlightGroup, "--scenario", settings.scenario, "Targets: 1 spread, 2 tight clusters, 3 grid")
+          ->capture_default_str();
+  add(kFlightGroup, "--pairs-m", settings.pair_distance_m, "Targets in pairs so far apart instead, m")
+      ->excludes(scenario);
+  add(kFlightGroup, "--raise-m", options.raised_m, "Fly so much higher than was flown (20 m), m")
       ->capture_default_str()
       ->check(CLI::Range(-15.0, 400.0));
-  add(kFlight, "--jump", options.jump,
+  add(kFlightGroup, "--jump", options.jump,
       "In the middle of the survey, what the autopilot believes jumps: glitch (50 m for 5 s), reset (3 m), "
       "height (10 m), yaw (20 deg), home (set 3 m lower) [none]")
       ->type_name("NAME");
-  add(kFlight, "--telemetry-rate", options.telemetry_rate_hz, "Attitudes and positions a second [as flown]")
+  add(kFlightGroup, "--telemetry-rate", options.telemetry_rate_hz,
+      "Attitudes and positions a second [as flown]")
       ->check(CLI::Range(0.1, 100.0));
-  add(kFlight, "--start-s", settings.start_s, "Begin, s on the vehicle's clock [at survey height]");
-  add(kFlight, "--end-s", settings.end_s, "End, s on the vehicle's clock [survey height left]");
+  add(kFlightGroup, "--start-s", settings.start_s, "Begin, s on the vehicle's clock [at survey height]");
+  add(kFlightGroup, "--end-s", settings.end_s, "End, s on the vehicle's clock [survey height left]");
 
-  constexpr const char* kCamera = "Camera (recordings and live)";
-  add(kCamera, "--frame-rate", settings.frame_rate_hz, "Frames a second")->capture_default_str();
-  add(kCamera, "--fov-deg", options.horizontal_fov_deg, "Horizontal field of view, deg")
+  add(kCameraGroup, "--frame-rate", settings.frame_rate_hz, "Frames a second")->capture_default_str();
+  add(kCameraGroup, "--fov-deg", options.horizontal_fov_deg, "Horizontal field of view, deg")
       ->capture_default_str();
-  add(kCamera, "--mount-pitch-deg", settings.camera.mount.pitch_deg, "Nominal mount; -90 looks down, deg")
+  add(kCameraGroup, "--mount-pitch-deg", settings.camera.mount.pitch_deg,
+      "Nominal mount; -90 looks down, deg")
       ->capture_default_str();
-  add(kCamera, "--distortion", options.distortion, "True lens: k1 k2 p1 p2 k3 [none]");
+  add(kCameraGroup, "--distortion", options.distortion, "True lens: k1 k2 p1 p2 k3 [none]");
   program
       .add_flag("--uncalibrated-lens", options.uncalibrated_lens, "Leave the distortion out of camera.json")
-      ->group(kCamera);
+      ->group(kHiddenInRecordingsGroup);
 
-  constexpr const char* kHidden = "Errors the estimator is not told (recordings and live)";
-  add(kHidden, "--latency-s", errors.latency_s, "Frame stamp minus exposure, s")->capture_default_str();
-  add(kHidden, "--jitter-s", errors.latency_jitter_s, "1-sigma of the latency, per frame, s")
+  add(kHiddenGroup, "--latency-s", errors.latency_s, "Frame stamp minus exposure, s")->capture_default_str();
+  add(kHiddenGroup, "--jitter-s", errors.latency_jitter_s, "1-sigma of the latency, per frame, s")
       ->capture_default_str();
-  add(kHidden, "--clock-step-s", errors.clock_step_s,
-      "The camera's clock is ahead by so much from the middle on, s (recordings)")
+  add(kHiddenInRecordingsGroup, "--clock-step-s", errors.clock_step_s,
+      "The camera's clock is ahead by so much from the middle on, s")
       ->capture_default_str();
-  add(kHidden, "--late-start-s", errors.late_start_s,
-      "Stamps of the first seconds are later by so much, s (recordings)")
+  add(kHiddenInRecordingsGroup, "--late-start-s", errors.late_start_s,
+      "Stamps of the first seconds are later by so much, s")
       ->capture_default_str();
-  CLI::Option* const sigma = add(kHidden, "--mount-sigma-deg", errors.mount_sigma_deg,
+  CLI::Option* const sigma = add(kHiddenGroup, "--mount-sigma-deg", errors.mount_sigma_deg,
                                  "1-sigma of the mounting error, per axis, deg")
                                  ->capture_default_str();
-  add(kHidden, "--mount-error-deg", errors.mount_error_deg, "Mounting error about forward, right, down, deg")
+  add(kHiddenGroup, "--mount-error-deg", errors.mount_error_deg,
+      "Mounting error about forward, right, down, deg")
       ->excludes(sigma);
 }
 

@@ -3,6 +3,11 @@
 # bench/peers/run.sh [--seeds 0,1,2] [--sets stock,gnss] [--jobs N] [--tune]: geoloc, Stone Soup and the mean of all fixes
 # on the same recordings; prints a table and writes it to build/peers/. See bench/peers/README.md.
 set -euo pipefail
+case " $* " in *" --help "* | *" -h "*)
+  sed -n '3,4s/^# //p' "$0"
+  echo "--tune searches Stone Soup's settings first; --jobs N runs at once (default: one per core)"
+  exit 0 ;;
+esac
 ROOT=$(cd "$(dirname "$0")/../.." && pwd)
 cd "$ROOT"
 mkdir -p build/peers

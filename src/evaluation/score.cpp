@@ -10,12 +10,10 @@
 namespace geoloc {
 namespace {
 
-constexpr double kFarthestMatch_m = 3.0;
-
 double root_mean_square(const std::vector<Eigen::Vector2d>& errors, const Eigen::Vector2d& offset) {
   double sum = 0.0;
   for (const Eigen::Vector2d& error : errors) sum += (error - offset).squaredNorm();
-  return errors.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(errors.size()));
+  return std::sqrt(sum / static_cast<double>(errors.size()));
 }
 
 /// Counts targets that were not found although a neighbour within reach was: the neighbour's object took the
@@ -68,9 +66,10 @@ Score score_objects(const std::vector<Eigen::Vector2d>& objects,
   score.found = static_cast<int>(errors.size());
   score.extra = score.objects - score.found;
   score.merged_pairs = count_merged_pairs(targets, is_found);
+  if (distances.size() > 0) score.nearest_m = distances.minCoeff();
+  if (errors.empty()) return score;
   score.rmse_m = root_mean_square(errors, Eigen::Vector2d::Zero());
-  if (!errors.empty())
-    score.relative_rmse_m = root_mean_square(errors, offset / static_cast<double>(errors.size()));
+  score.relative_rmse_m = root_mean_square(errors, offset / static_cast<double>(errors.size()));
   return score;
 }
 

@@ -71,6 +71,20 @@ def lines(text):
 class Detections(DetectTest):
     """What geoloc_detect finds and how it reports it."""
 
+    def test_where_nothing_is_found_threshold_and_best_score_are_named(self):
+        found_nothing = run("geoloc_detect", PICTURE, "--confidence", 0.999999)
+        self.assertEqual(found_nothing.status, 0, found_nothing.err)
+        self.assertRegex(found_nothing.err, r"; nothing reached detection.confidence \(0.999999\): the best score below it was (0.9|1.0)\d")
+        grey = self.put("grey.png", png(pixels(100, 100)))
+        self.assertIn("the best score below it was 0.00", self.detect(grey).err)
+        self.assertNotIn("nothing reached", self.detect(self.put("red.png", png(pixels(3, 2)))).err)
+
+    def test_settings_that_have_nothing_to_do_with_the_detector_are_named(self):
+        picture = self.put("one.png", png(pixels(3, 2)))
+        config = self.write("config.json", {"detection": {"confidence": 0.5}, "joint": {"gate": 9}})
+        said = self.detect(picture, "--config", config).err
+        self.assertIn("without effect here, since only detection and video are used: joint.gate", said)
+
     def test_a_picture_is_a_line_of_json(self):
         picture = self.put("one.png", png(pixels(3, 2)))
         result = self.detect(picture, "--json", "-")

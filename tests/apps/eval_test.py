@@ -188,10 +188,35 @@ class Sweeps(AppTest):
         for needed_elsewhere in (r"<script", r"<link", r"\bsrc=", r"\bhref=", r"url\(", r"@import"):
             self.assertNotRegex(page, needed_elsewhere)
         drawings = re.findall(r"<svg.*?</svg>", page, re.DOTALL)
-        self.assertEqual(len(drawings), 4 + 1)
+        self.assertEqual(len(drawings), 4 + 4 + 1)  # every run, over time, the sweep
         for drawing in drawings + [(self.folder / "sweep_pairs.svg").read_text()]:
             xml.etree.ElementTree.fromstring(drawing)
         self.assertNotIn("nan", page)
+        for name in "error_over_time", "found_over_time", "latency_convergence", "boresight_convergence":
+            xml.etree.ElementTree.parse(self.folder / f"{name}.svg")
+
+    def test_the_page_says_what_it_is_of(self):
+        self.evaluate(self.folder, "--flights", "none", "--sweep", "pairs", "--method", "joint")
+        page = (self.folder / "report.html").read_text()
+        self.assertRegex(page, r"<code>\S*geoloc_eval --seeds 1 --report \S+ --flights none --sweep pairs --method joint</code>")
+        self.assertRegex(page, r"20\d\d-\d\d-\d\dT\S+Z, geoloc \d+\.\d+\.\d+")
+        self.assertIn("All settings of the estimator are the defaults", page)
+        self.assertNotIn("Every run", page)  # there is no such picture
+
+    def test_a_setting_is_varied(self):
+        config = self.write("config.json", {"joint": {"ambiguity": 4}, "paper": {"gate": 2}})
+        report = self.evaluate(self.folder / "report", "--flights", "none", "--sweep-setting", "joint.gate=20,1e-9,11.8",
+                               "--method", "joint", "--config", config)
+        (sweep,) = report["sweeps"]
+        self.assertEqual((sweep["name"], sweep["usual_value"]), ("joint.gate", 11.8))
+        nothing, usual, wide = sweep["points"]
+        self.assertEqual([nothing["value"], usual["value"], wide["value"]], [1e-9, 11.8, 20])
+        self.assertEqual(usual["found"], usual["targets"])
+        self.assertNotEqual(nothing["mean_rmse_m"], usual["mean_rmse_m"])
+        page = (self.folder / "report" / "report.html").read_text()
+        self.assertIn("joint.ambiguity = 4.0", page)
+        self.assertIn("settings as above", page)
+        self.assertTrue((self.folder / "report" / "sweep_joint.gate.svg").exists())
 
     def test_the_number_of_threads_changes_nothing(self):
         for threads in (1, 3):
@@ -222,7 +247,14 @@ class UnusableArguments(AppTest):
         folder = self.folder / "report"
         for arguments, hint in ((("--sweep", "depth"), "height"), (("--scenarios", 4), "scenarios"),
                                 (("--rendered", "--rendered-flight", "path9"), "stock_path1"),
-                                (("--rendered", "--rendered-s", 0), "rendered-s")):
+                                (("--rendered", "--rendered-s", 0), "rendered-s"),
+                                (("--sweep-setting", "joint.gates=1,2"), "no setting 'joint.gates'"),
+                                (("--sweep-setting", "joint.gate"), "PATH=VALUE"),
+                                (("--sweep-setting", "joint.gate="), "PATH=VALUE"),
+                                (("--sweep-setting", "joint.gate=1,x"), "'x' is no number"),
+                                (("--sweep-setting", "joint.gate=1,-1"), "joint.gate must lie in"),
+                                (("--sweep-setting", "method=1"), "numbers"),
+                                (("--sweep-setting", "a/b~0=1"), "no setting")):
             result = run("geoloc_eval", "--flights", "none", "--report", folder, *arguments)
             self.assertEqual(result.status, 2, result.err)
             self.assertIn(hint, result.err)

@@ -124,7 +124,7 @@ class OutputsOfRuns(AppTest):
     def test_a_report_does_not_go_into_a_recording(self):
         recording = self.make_recording()
         before = tree(recording)
-        self.assert_refused(run("geoloc_eval", "--flights", "none", "--report", recording), "is a recording")
+        self.assert_refused(run("geoloc_eval", "--flights", "none", "--sweep", "latency", "--report", recording), "is a recording")
         self.assertEqual(tree(recording), before)
 
     def test_folders_that_are_not_there_are_named_before_anything_starts(self):

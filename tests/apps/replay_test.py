@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+import csv
 import json
 import re
 import shutil
@@ -31,6 +32,31 @@ class Determinism(AppTest):
         first = tree(self.make_recording("first"))
         self.assertEqual(first, tree(self.make_recording("second")))
         self.assertNotEqual(first["frames.jsonl"], tree(self.make_recording("other", "--seed", 2))["frames.jsonl"])
+
+
+class Associations(AppTest):
+    """What the tracker made of each fix can be judged from the files."""
+
+    def test_fixes_name_frame_object_and_innovation(self):
+        recording, raw, lines = self.make_recording(), self.folder / "raw.csv", self.folder / "lines.jsonl"
+        times = [json.loads(line)["time_us"] for line in (recording / "frames.jsonl").read_text().splitlines()]
+        for method in "paper", "joint":
+            result = run("geoloc_replay", recording, "--method", method, "--raw", raw, "--jsonl", lines, "--out", self.folder / "out.geojson")
+            self.assertEqual(result.status, 0, result.err)
+            rows = list(csv.DictReader(raw.read_text().splitlines()))
+            ids = {feature["properties"]["id"] for feature in json.loads((self.folder / "out.geojson").read_text())["features"]}
+            self.assertLessEqual(ids, {int(row["object_id"]) for row in rows if row["object_id"]})
+            followed = [row for row in rows if row["innovation_x_px"]]
+            self.assertGreater(len(followed), 0.8 * len(rows))
+            for row in followed:
+                centre = float(row["box_x"]) + float(row["box_width"]) / 2 - 0.5
+                self.assertAlmostEqual(float(row["expected_x_px"]) + float(row["innovation_x_px"]), centre, delta=0.02)
+                self.assertLess(abs(float(row["innovation_x_px"])), 100)
+                self.assertTrue(row["object_id"])
+            frames = [line for line in map(json.loads, lines.read_text().splitlines()) if line["type"] == "frame"]
+            self.assertEqual([frame["time_us"] for frame in frames], [times[frame["frame"]] for frame in frames])
+            fixes = [(str(frame["frame"]), str(fix["object_id"] or "")) for frame in frames for fix in frame.get("fixes", [])]
+            self.assertEqual(fixes, [(row["frame"], row["object_id"]) for row in rows])
 
 
 class Priors(AppTest):

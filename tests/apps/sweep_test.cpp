@@ -18,7 +18,7 @@ RunResult run_of(Method method, int found, double rmse_m, int extra) {
   run.contender = {method, 0};
   run.score.targets = 30;
   run.score.found = found;
-  run.score.rmse_m = rmse_m;
+  if (found > 0) run.score.rmse_m = rmse_m;
   run.score.extra = extra;
   return run;
 }
@@ -53,11 +53,12 @@ TEST(SweepReport, RunsThatFoundNothingHaveNoRmse) {
   const auto cells = cells_of(point);
   ASSERT_EQ(cells.size(), 2U);
   EXPECT_EQ(cells[0].contender.method, Method::kPaper);
-  EXPECT_DOUBLE_EQ(cells[0].mean_rmse_m, 0.6);
+  EXPECT_DOUBLE_EQ(cells[0].mean_rmse_m.value(), 0.6);
   EXPECT_EQ(cells[0].found, 20);
   EXPECT_EQ(cells[0].targets, 60);
   EXPECT_EQ(cells[0].extra, 3);
-  EXPECT_DOUBLE_EQ(cells[1].mean_rmse_m, 0.3);
+  EXPECT_DOUBLE_EQ(cells[1].mean_rmse_m.value(), 0.3);
+  EXPECT_EQ(cells_of({1.0, {run_of(Method::kPaper, 0, 0.0, 2)}, 0})[0].mean_rmse_m, std::nullopt);
 }
 
 TEST(SweepReport, ChartNamesSharesNeverRoundedUpToAll) {

@@ -15,8 +15,8 @@ TEST(Score, IsWhatAHandCountGives) {
   EXPECT_EQ(score.found, 3);
   EXPECT_EQ(score.extra, 1);
   EXPECT_EQ(score.merged_pairs, 1);  // 21 beside 20; the lost target at 50 has no neighbour
-  EXPECT_NEAR(score.rmse_m, 0.5, 1e-12);
-  EXPECT_NEAR(score.relative_rmse_m, 0.0, 1e-12);  // all errors are one offset
+  EXPECT_NEAR(score.rmse_m.value(), 0.5, 1e-12);
+  EXPECT_NEAR(score.relative_rmse_m.value(), 0.0, 1e-12);  // all errors are one offset
   EXPECT_EQ(score.target_of_object, (std::vector<std::optional<std::size_t>>{0, 1, 2, std::nullopt}));
 }
 
@@ -29,9 +29,15 @@ TEST(HeightScore, IsWithAndWithoutTheErrorThatAllShare) {
   EXPECT_EQ(score_heights({}).rmse_m, 0.0);
 }
 
-TEST(Score, OfNothingIsZero) {
+TEST(Score, OfNothingFoundHasNoErrors) {
   EXPECT_EQ(score_objects({}, {{0, 0}}).found, 0);
+  EXPECT_EQ(score_objects({}, {{0, 0}}).nearest_m, std::nullopt);
   EXPECT_EQ(score_objects({{0, 0}}, {}).extra, 1);
+  const Score far = score_objects({{0, 0}, {0, 9}}, {{0, 4}});
+  EXPECT_EQ(far.found, 0);
+  EXPECT_EQ(far.rmse_m, std::nullopt);
+  EXPECT_EQ(far.relative_rmse_m, std::nullopt);
+  EXPECT_EQ(far.nearest_m, 4.0);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "geoloc/io/json/camera_file.hpp"
 #include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
+#include "geoloc/io/recording/recording_writer.hpp"
 
 // Every reader of external files, given any bytes: it may reject them with a std::exception, but what it
 // accepts must be usable. Violations abort. Shared by the fuzz programs and by the test that damages good
@@ -36,7 +37,7 @@ inline bool is_usable(const Detection& detection) {
 
 inline void read_any_frames(const std::string& text, BadLines bad_lines) {
   std::istringstream input(text);
-  std::size_t skipped = 0;
+  SkippedLines skipped;
   HostTime previous{};
   for (const RecordedFrame& frame : read_frames(input, "any", bad_lines, skipped)) {
     require(frame.captured_at >= previous);
@@ -97,7 +98,11 @@ inline void read_any_config(const std::string& text) {
 /// truth.geojson.
 inline void read_any_truth(const std::string& text) {
   try {
-    for (const TrueTarget& target : parse_truth(text, "any")) require(is_valid(target.position));
+    const auto targets = parse_truth(text, "any");
+    const auto again = parse_truth(truth_to_geojson(targets), "any");
+    require(again.size() == targets.size());
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      require(is_valid(targets[i].position) && again[i].id == targets[i].id);
   } catch (const std::runtime_error&) {
   }
 }

@@ -10,6 +10,9 @@
 
 namespace geoloc {
 
+/// An object farther from a target is not its.
+inline constexpr double kFarthestMatch_m = 3.0;
+
 /// How well a run found the targets (docs/formats.md, scoring).
 struct Score {
   int targets = 0;
@@ -17,8 +20,9 @@ struct Score {
   int found = 0;                 ///< targets with an object of their own within 3 m
   int extra = 0;                 ///< objects without a target
   int merged_pairs = 0;          ///< a target without an object beside one whose object stands for both
-  double rmse_m = 0.0;           ///< over the targets found; 0 where there is none
-  double relative_rmse_m = 0.0;  ///< the same with the run's mean offset removed
+  std::optional<double> rmse_m;  ///< over the targets found; nullopt where there is none
+  std::optional<double> relative_rmse_m;  ///< the same with the run's mean offset removed
+  std::optional<double> nearest_m;        ///< least distance of an object to a target, matched or not
   std::vector<std::optional<std::size_t>> target_of_object;  ///< nullopt: none
 };
 

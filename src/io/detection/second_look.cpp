@@ -41,6 +41,7 @@ class SecondLookDetector::Impl {
     DetectorCounts counts = first_->counts();
     counts.failed_images += failed_images_;
     counts.rejected_boxes += rejected_boxes_;
+    counts.best_score_below = std::max(counts.best_score_below, best_score_below_);
     return counts;
   }
 
@@ -104,7 +105,10 @@ class SecondLookDetector::Impl {
       ++rejected_boxes_;
       return std::nullopt;
     }
-    if (answer.score < config_.confidence) return std::nullopt;
+    if (answer.score < config_.confidence) {
+      best_score_below_ = std::max(best_score_below_, answer.score);
+      return std::nullopt;
+    }
     const ImageSize picture{size.width, size.height};
     const Box whole = answer.box_in(square);
     const auto box = clipped(whole, picture);
@@ -119,6 +123,7 @@ class SecondLookDetector::Impl {
   cv::Mat patches_;
   std::uint64_t failed_images_ = 0;
   std::uint64_t rejected_boxes_ = 0;
+  double best_score_below_ = 0.0;
 };
 
 SecondLookDetector::SecondLookDetector(std::unique_ptr<Detector> first, const std::filesystem::path& network,

@@ -39,6 +39,7 @@ std::vector<Detection> TiledDetector::detect(const cv::Mat& bgr) {
 DetectorCounts TiledDetector::counts() const {
   DetectorCounts counts = counts_;
   counts.rejected_boxes = detector_->counts().rejected_boxes;
+  counts.best_score_below = detector_->counts().best_score_below;
   return counts;
 }
 

@@ -65,7 +65,10 @@ DecodedBoxes confident_boxes(const YoloOutput& output, double threshold) {
   const BestScores best = best_scores(output);
   for (int candidate = 0; candidate < output.candidates; ++candidate) {
     const double score = best.values[static_cast<std::size_t>(candidate)];
-    if (score < threshold) continue;
+    if (score < threshold) {
+      found.best_score_below = std::max(found.best_score_below, score);
+      continue;
+    }
     const auto box = box_of(output, candidate);
     if (!box || !(score <= 1 + kScoreTolerance)) {
       ++found.rejected;

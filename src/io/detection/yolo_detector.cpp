@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/detection/yolo_detector.hpp"
 
+#include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
@@ -73,6 +74,7 @@ class YoloDetector::Impl {
     const DecodedBoxes decoded = decode_yolo({output.ptr<float>(), network_.classes, network_.candidates},
                                              letterbox, size, config_, network_.centre_sigma);
     counts_.rejected_boxes += decoded.rejected;
+    counts_.best_score_below = std::max(counts_.best_score_below, decoded.best_score_below);
     return decoded.detections;
   }
 

@@ -5,13 +5,14 @@
 
 #include <cmath>
 
+#include "geoloc/io/output/decimals.hpp"
 #include "geoloc/io/output/text.hpp"
 
 namespace geoloc::io {
 namespace {
 
 std::string number(double value, int digits) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string();
+  return std::isfinite(value) ? fmt::format("{:.{}f}", decimals(value, digits), digits) : std::string();
 }
 
 }  // namespace

@@ -34,6 +34,8 @@ RunCounters counters_of(const Geolocator& geolocator) {
   counters.tracks_merged = tracks.merged;
   counters.ranges_used = tracks.ranges_used;
   counters.ranges_refused = tracks.ranges_refused;
+  counters.detections_at_edge = frames.detections_at_edge;
+  counters.detections_above_horizon = frames.no_fix[static_cast<std::size_t>(NoFix::kAboveHorizon)];
   return counters;
 }
 

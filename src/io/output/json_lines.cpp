@@ -41,6 +41,11 @@ ordered_json to_footprint(const ViewReport& view) {
   return corners;
 }
 
+ordered_json to_pixel(const std::optional<Eigen::Vector2d>& pixel) {
+  if (!pixel) return nullptr;
+  return {decimals(pixel->x(), 2), decimals(pixel->y(), 2)};
+}
+
 ordered_json to_fixes(const std::vector<FixReport>& reports) {
   auto fixes = ordered_json::array();
   for (const FixReport& fix : reports) {
@@ -49,7 +54,10 @@ ordered_json to_fixes(const std::vector<FixReport>& reports) {
         {{"coordinates", coordinates(fix.ground.position)},
          {"class_id", fix.detection.class_id},
          {"confidence", decimals(fix.detection.confidence, 4)},
-         {"box", {decimals(box.x, 2), decimals(box.y, 2), decimals(box.width, 2), decimals(box.height, 2)}}});
+         {"box", {decimals(box.x, 2), decimals(box.y, 2), decimals(box.width, 2), decimals(box.height, 2)}},
+         {"object_id", fix.look.object_id ? ordered_json(*fix.look.object_id) : ordered_json(nullptr)},
+         {"expected_px", to_pixel(fix.look.expected_px)},
+         {"innovation_px", to_pixel(innovation_px(fix.look, fix.detection))}});
   }
   return fixes;
 }
@@ -73,7 +81,8 @@ std::string JsonLines::frame(const OutputFrame& frame) {
                     {"located", frame.view.has_value()},
                     {"detections", frame.detections.size()},
                     {"confirmed", frame.objects.size()},
-                    {"tentative", frame.tentative.size()}};
+                    {"tentative", frame.tentative.size()},
+                    {"frame", frame.number}};
   if (frame.view) {
     json["vehicle"] = to_vehicle(*frame.view);
     json["footprint"] = to_footprint(*frame.view);
@@ -116,7 +125,10 @@ std::string JsonLines::status(const LiveStatus& status) {
                {"frames_damaged", status.frames_damaged},
                {"packets_lost", status.packets_lost},
                {"confirmed", status.objects},
-               {"tentative", status.tentative}});
+               {"tentative", status.tentative},
+               {"frames_searched", status.frames_searched},
+               {"frames_dropped", status.frames_dropped},
+               {"warning", status.warning}});
 }
 
 std::string JsonLines::end(const RunRecord& run) {

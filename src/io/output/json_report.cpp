@@ -53,7 +53,9 @@ ordered_json counters_to_json(const RunCounters& counters) {
           {"tracks_removed", counters.tracks_removed},
           {"tracks_merged", counters.tracks_merged},
           {"ranges_used", counters.ranges_used},
-          {"ranges_refused", counters.ranges_refused}};
+          {"ranges_refused", counters.ranges_refused},
+          {"detections_at_edge", counters.detections_at_edge},
+          {"detections_above_horizon", counters.detections_above_horizon}};
 }
 
 ordered_json calibration_to_json(const std::optional<Calibration>& calibration) {

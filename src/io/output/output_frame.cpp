@@ -67,7 +67,8 @@ OutputFrame report_frame(const Geolocator& geolocator, bool is_located, HostTime
   for (const LocatedDetection& located : geolocator.located()) {
     frame.fixes.push_back({located.detection,
                            ground_point(*geolocator.local_frame(), located.fix.position_in_enu),
-                           located.fix.range_m});
+                           located.fix.range_m,
+                           {}});
   }
   return frame;
 }

@@ -177,7 +177,7 @@ void draw_legend(const Map& map, const RunPicture& picture, std::string& svg) {
 RunPicture picture_of(const RunRecord& run) {
   RunPicture picture;
   picture.title = run.title;
-  picture.subtitle = run.summary;
+  picture.subtitle = run.summary.substr(0, run.summary.find('\n'));
   picture.targets = run.targets;
   for (const RawFix& fix : run.raw_fixes) picture.raw_fixes.push_back(fix.position_in_enu);
   for (const TrajectoryPoint& point : run.trajectory)
@@ -190,8 +190,8 @@ std::string to_svg(const RunPicture& picture) {
   const Map map(area_of(picture));
   const double height_px = map.bottom() + kFooter_px;
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"{0:.0f}\" "
-      "height=\"{1:.0f}\">\n",
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.0f} {1:.0f}\" width=\"100%\" "
+      "height=\"100%\">\n",
       kWidth_px, height_px);
   svg += style();
   svg += "<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n";

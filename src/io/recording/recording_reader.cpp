@@ -21,6 +21,7 @@ using nlohmann::json;
 
 // Far beyond any real frame; keeps sums of coordinates finite and exact enough.
 constexpr double kLargestPixel = 1e6;
+constexpr std::size_t kMostNamed = 10;                           // bad lines
 constexpr std::int64_t kLatestStamp_us = 7'258'118'400'000'000;  // year 2200
 
 double finite_number(const json& value, const char* what) {
@@ -109,6 +110,12 @@ RecordedFrame parse_frame(const std::string& line) {
   return frame;
 }
 
+TargetId parse_id(const json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (!value.is_number()) throw std::invalid_argument("id must be a text or a whole number from 0");
+  return whole_number(value, "id", 1e9);
+}
+
 TrueTarget parse_target(const json& feature, int position) {
   const json& coordinates = member(member(feature, "geometry"), "coordinates");
   if (!coordinates.is_array() || coordinates.size() < 2) {
@@ -121,7 +128,7 @@ TrueTarget parse_target(const json& feature, int position) {
   if (!is_valid(target.position)) throw std::invalid_argument("not a place on Earth (lon, lat order?)");
   if (const auto properties = feature.find("properties");
       properties != feature.end() && properties->is_object()) {
-    if (properties->contains("id")) target.id = whole_number((*properties)["id"], "id", 1e9);
+    if (properties->contains("id")) target.id = parse_id((*properties)["id"]);
     if (properties->contains("class_id")) {
       target.class_id = whole_number((*properties)["class_id"], "class_id", 1e6);
     }
@@ -164,8 +171,10 @@ bool is_cut_off(const std::string& line, const std::istream& input) {
 }  // namespace
 
 std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& name, BadLines bad_lines,
-                                       std::size_t& skipped_lines) {
+                                       SkippedLines& skipped) {
   std::vector<RecordedFrame> frames;
+  std::size_t refused = 0;
+  std::string refusals;
   std::string line;
   for (std::size_t number = 1; std::getline(input, line); ++number) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
@@ -176,14 +185,19 @@ std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& n
       }
       frames.push_back(std::move(frame));
     } catch (const std::exception& error) {
+      const std::string fault = name + ":" + std::to_string(number) + ": " + error.what();
       if (bad_lines == BadLines::kRefuse && !is_cut_off(line, input)) {
-        throw std::runtime_error(name + ":" + std::to_string(number) + ": " + error.what() +
-                                 " (--keep-going skips bad lines)");
+        ++refused;
+        if (refused <= kMostNamed) refusals += (refusals.empty() ? "" : "\n") + fault;
+        continue;
       }
-      ++skipped_lines;
+      ++skipped.count;
+      if (skipped.named.size() < kMostNamed) skipped.named.push_back(fault);
     }
   }
-  return frames;
+  if (refused == 0) return frames;
+  if (refused > kMostNamed) refusals += "\nand " + std::to_string(refused - kMostNamed) + " more bad lines";
+  throw std::runtime_error(refusals + " (--keep-going skips bad lines)");
 }
 
 std::vector<TrueTarget> parse_truth(const std::string& text, const std::string& name) {
@@ -214,7 +228,7 @@ Recording read_recording(const fs::path& folder, BadLines bad_lines) {
   const fs::path frames_file = require_file(folder / kFramesFile);
   std::ifstream frames(frames_file, std::ios::binary);
   if (!frames) throw std::runtime_error(frames_file.string() + ": cannot be opened");
-  recording.frames = read_frames(frames, frames_file.string(), bad_lines, recording.skipped_lines);
+  recording.frames = read_frames(frames, frames_file.string(), bad_lines, recording.skipped);
   recording.telemetry = read_tlog(require_file(folder / kTelemetryFile));
   if (fs::exists(folder / kConfigFile)) recording.config_json = read_text_file(folder / kConfigFile);
   if (fs::exists(folder / kClassNamesFile))
@@ -222,7 +236,7 @@ Recording read_recording(const fs::path& folder, BadLines bad_lines) {
   if (fs::exists(folder / kCountsFile)) recording.frames_damaged = read_damaged(folder / kCountsFile);
   if (fs::exists(folder / kTruthFile)) recording.truth = read_truth(folder / kTruthFile);
   std::ifstream notes(folder / kNotesFile, std::ios::binary);  // most recordings have none
-  recording.notes = read_notes(notes, recording.skipped_lines);
+  recording.notes = read_notes(notes, recording.skipped.count);
   recording.pictures = read_object_pictures(folder);
   return recording;
 }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/detection_fields.hpp"
@@ -184,7 +185,9 @@ void RecordingWriter::finish() {
 std::string truth_to_geojson(const std::vector<TrueTarget>& targets) {
   auto features = nlohmann::ordered_json::array();
   for (const TrueTarget& target : targets) {
-    nlohmann::ordered_json properties{{"id", target.id}, {"class_id", target.class_id}};
+    nlohmann::ordered_json properties;
+    std::visit([&properties](const auto& id) { properties["id"] = id; }, target.id);
+    properties["class_id"] = target.class_id;
     if (target.height_above_home_m) properties["height_above_home_m"] = *target.height_above_home_m;
     features.push_back({{"type", "Feature"},
                         {"geometry",

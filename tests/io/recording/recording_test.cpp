@@ -65,7 +65,7 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   ASSERT_EQ(recording.telemetry.records().size(), 1U);
   EXPECT_EQ(recording.telemetry.records()[0].size, kHeartbeat.size());
   ASSERT_EQ(recording.truth.size(), 1U);
-  EXPECT_EQ(recording.truth[0].id, 7);
+  EXPECT_EQ(recording.truth[0].id, TargetId(7));
   EXPECT_DOUBLE_EQ(recording.truth[0].position.latitude_deg, -22.906123456789);
   EXPECT_EQ(recording.truth[0].height_above_home_m, -1.25);
   EXPECT_EQ(recording.class_names.at(0), "target");
@@ -193,7 +193,7 @@ class BadFrameLine : public ::testing::TestWithParam<const char*> {};
 TEST_P(BadFrameLine, IsRefusedByFileLineAndReasonOrSkippedAndCounted) {
   const std::string good = R"({"time_us": 5, "detections": []})";
   std::istringstream strict(good + "\n" + GetParam() + "\n");
-  std::size_t skipped = 0;
+  SkippedLines skipped;
   try {
     read_frames(strict, "frames.jsonl", BadLines::kRefuse, skipped);
     FAIL() << "accepted: " << GetParam();
@@ -203,7 +203,7 @@ TEST_P(BadFrameLine, IsRefusedByFileLineAndReasonOrSkippedAndCounted) {
   std::istringstream lenient(good + "\n" + GetParam() + "\n" +
                              R"({"time_us": 9, "detections": [], "extra": 1})");
   EXPECT_EQ(read_frames(lenient, "frames.jsonl", BadLines::kSkip, skipped).size(), 2U);
-  EXPECT_EQ(skipped, 1U);
+  EXPECT_EQ(skipped.count, 1U);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -227,14 +227,48 @@ TEST(Frames, WhatAPowerCutLeavesAtTheEndIsSkippedAndCounted) {
   const std::string good = R"({"time_us": 5, "detections": []})";
   for (const std::string& end : {R"({"time_us": 6, "dete)"s, "\0\0\0"s, "{\"time\0\0\0"s, "\0\0}\n"s}) {
     std::istringstream input(good + "\n" + end);
-    std::size_t skipped = 0;
+    SkippedLines skipped;
     EXPECT_EQ(read_frames(input, "frames.jsonl", BadLines::kRefuse, skipped).size(), 1U) << end;
-    EXPECT_EQ(skipped, 1U);
+    EXPECT_EQ(skipped.count, 1U);
   }
   std::istringstream whole(good + "\n" + good);  // other programs may leave out the last line's end
-  std::size_t skipped = 0;
+  SkippedLines skipped;
   EXPECT_EQ(read_frames(whole, "frames.jsonl", BadLines::kRefuse, skipped).size(), 2U);
-  EXPECT_EQ(skipped, 0U);
+  EXPECT_EQ(skipped.count, 0U);
+}
+
+TEST(Frames, OfBadLinesTheFirstTenAreNamedAndTheOthersCounted) {
+  std::string text;
+  for (int i = 0; i < 13; ++i) text += "nonsense\n";
+  const std::string good = R"({"time_us": 5, "detections": []})";
+  std::istringstream strict(text + good + "\n");
+  SkippedLines skipped;
+  try {
+    read_frames(strict, "frames.jsonl", BadLines::kRefuse, skipped);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("frames.jsonl:10: "), std::string::npos) << message;
+    EXPECT_EQ(message.find("frames.jsonl:11: "), std::string::npos) << message;
+    EXPECT_NE(message.find("and 3 more bad lines"), std::string::npos) << message;
+  }
+  std::istringstream lenient(text + good + "\n");
+  EXPECT_EQ(read_frames(lenient, "frames.jsonl", BadLines::kSkip, skipped).size(), 1U);
+  EXPECT_EQ(skipped.count, 13U);
+  ASSERT_EQ(skipped.named.size(), 10U);
+  EXPECT_EQ(skipped.named[1], "frames.jsonl:2: not a JSON object");
+}
+
+TEST(Truth, IdsAreNumbersOrTextsAndAreWrittenAsTheyWereRead) {
+  const auto target = [](const std::string& id) {
+    return R"({"features": [{"geometry": {"coordinates": [-43, -22]}, "properties": {"id": )" + id + "}}]}";
+  };
+  EXPECT_EQ(parse_truth(target("17"), "any")[0].id, TargetId(17));
+  const auto named = parse_truth(target(R"("mark 7")"), "any");
+  EXPECT_EQ(named[0].id, TargetId("mark 7"));
+  EXPECT_EQ(parse_truth(truth_to_geojson(named), "any")[0].id, named[0].id);
+  for (const char* id : {"true", "[]", "-1", "0.5", "1e300", "null"})
+    EXPECT_THROW(parse_truth(target(id), "any"), std::runtime_error) << id;
 }
 
 TEST(Truth, RefusesWhatIsNoPlace) {

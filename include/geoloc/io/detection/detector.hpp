@@ -15,6 +15,7 @@ struct DetectorCounts {
   std::uint64_t unusable_images = 0;  ///< empty, or not 8 bits with 1, 3 or 4 channels
   std::uint64_t failed_images = 0;    ///< the network failed on them
   std::uint64_t rejected_boxes = 0;   ///< with an impossible size or score
+  double best_score_below = 0.0;      ///< of all that did not reach DetectionConfig::confidence
 };
 
 /// Finds objects in pictures. Used by one thread at a time.

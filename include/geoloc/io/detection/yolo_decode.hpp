@@ -32,6 +32,7 @@ struct CentreSigma {
 struct DecodedBoxes {
   std::vector<Detection> detections;  ///< in pixels of the picture, clipped to it, most confident first
   std::size_t rejected = 0;  ///< confident boxes that are not finite or of no size; scores above 1 or NaN
+  double best_score_below = 0.0;  ///< of the candidates that did not reach the threshold
 };
 
 /// Applies the threshold and non-maximum suppression within each class, and maps boxes from the network's

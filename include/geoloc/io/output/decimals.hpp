@@ -6,10 +6,11 @@
 namespace geoloc::io {
 
 /// The value rounded to `digits` decimal places, so that JSON writes it short and stable: as the shortest
-/// decimal that reads back as the same value. Values that are not finite stay so, and JSON writes null.
+/// decimal that reads back as the same value. Never -0. Values that are not finite stay so, and JSON writes
+/// null.
 inline double decimals(double value, int digits) {
   const double scale = std::pow(10.0, digits);
-  return std::round(value * scale) / scale;
+  return std::round(value * scale) / scale + 0.0;  // -0 + 0 is 0
 }
 
 }  // namespace geoloc::io

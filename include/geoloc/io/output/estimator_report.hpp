@@ -33,8 +33,10 @@ struct RunCounters {
   std::uint64_t tracks_created = 0;
   std::uint64_t tracks_removed = 0;
   std::uint64_t tracks_merged = 0;
-  std::uint64_t ranges_used = 0;     ///< a rangefinder's readings
-  std::uint64_t ranges_refused = 0;  ///< those that disagree with the looks
+  std::uint64_t ranges_used = 0;               ///< a rangefinder's readings
+  std::uint64_t ranges_refused = 0;            ///< those that disagree with the looks
+  std::uint64_t detections_at_edge = 0;        ///< not used: the image's edge may cut them
+  std::uint64_t detections_above_horizon = 0;  ///< of those without a fix
 };
 
 /// What became of a known point.

@@ -31,6 +31,8 @@ struct LiveStatus {
   std::uint64_t packets_lost = 0;     ///< of the stream
   std::uint64_t objects = 0;          ///< confirmed
   std::uint64_t tentative = 0;
+  std::uint64_t frames_searched = 0;  ///< by the detector
+  std::uint64_t frames_dropped = 0;   ///< a newer one came while it was busy
 };
 
 }  // namespace geoloc::io

@@ -13,6 +13,7 @@
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/io/output/estimator_report.hpp"
 #include "geoloc/io/output/object_report.hpp"
+#include "geoloc/io/output/raw_fixes.hpp"
 
 // What the estimator knew after a frame, as plain values that a receiver may keep for as long as it likes.
 namespace geoloc::io {
@@ -42,6 +43,7 @@ struct FixReport {
   Detection detection;
   GroundPoint ground;
   double range_m = 0.0;  ///< from the camera
+  Look look = {};
 };
 
 struct OutputFrame {
@@ -52,6 +54,7 @@ struct OutputFrame {
   std::vector<ObjectReport> objects;  ///< confirmed, in order of their ids
   std::vector<ObjectReport> tentative;
   EstimatorReport estimator;
+  std::uint64_t number = 0;  ///< of the frame in the run, from 0
 };
 
 /// `is_located` is what Geolocator::process() returned for this frame.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "geoloc/camera/detection.hpp"
@@ -26,9 +27,17 @@ struct RecordedFrame {
   std::string time_quality = {};  ///< how captured_at was obtained (docs/video.md); empty: not stated
 };
 
+/// As GeoJSON has them.
+using TargetId = std::variant<int, std::string>;
+
+inline std::string to_text(const TargetId& id) {
+  const auto* number = std::get_if<int>(&id);
+  return number != nullptr ? std::to_string(*number) : std::get<std::string>(id);
+}
+
 /// A point of truth.geojson.
 struct TrueTarget {
-  int id = 0;
+  TargetId id = 0;
   int class_id = 0;
   Geodetic position;
   std::optional<double> height_above_home_m;

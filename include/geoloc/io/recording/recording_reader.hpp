@@ -16,8 +16,13 @@
 namespace geoloc::io {
 
 enum class BadLines {
-  kRefuse,  ///< throw at the first
+  kRefuse,  ///< throw
   kSkip     ///< skip and count
+};
+
+struct SkippedLines {
+  std::size_t count = 0;
+  std::vector<std::string> named;  ///< the first ten with file, line and reason
 };
 
 struct Recording {
@@ -30,19 +35,20 @@ struct Recording {
   std::vector<NotedObject> notes;                 ///< what people said of the objects
   std::map<std::uint64_t, std::string> pictures;  ///< JPEGs of the objects by their ids
   std::uint64_t frames_damaged = 0;               ///< that were left out
-  std::size_t skipped_lines = 0;
+  SkippedLines skipped;
 };
 
-/// Reads the whole folder. Throws std::runtime_error with file, line and reason for a missing file, a bad
-/// line, a number that is not finite, a box without size, or frame times that run backwards. What a crash or
-/// a power cut leaves at the end, half a line or zeros, is always skipped and counted.
+/// Reads the whole folder. Throws std::runtime_error with file, line and reason for a missing file, bad
+/// lines (the first ten of them): a number that is not finite, a box without size, times that run backwards.
+/// What a crash or a power cut leaves at the end, half a line or zeros, is always skipped and counted.
 Recording read_recording(const std::filesystem::path& folder, BadLines bad_lines = BadLines::kRefuse);
 
 /// frames.jsonl alone; `name` stands for the file in messages.
 std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& name, BadLines bad_lines,
-                                       std::size_t& skipped_lines);
+                                       SkippedLines& skipped);
 
-/// GeoJSON Points with `id` and, optionally, `class_id`. Throws std::runtime_error with file and reason.
+/// GeoJSON Points, optionally with `id` (a number or a text) and `class_id`. Throws std::runtime_error with
+/// file and reason.
 std::vector<TrueTarget> read_truth(const std::filesystem::path& file);
 
 /// The same from the file's text; `name` stands for the file in messages.
