@@ -158,11 +158,12 @@ std::string notes_on(const std::vector<NamedChart>& charts) {
        "Mounting error: bars are the sigma that the estimator states, the dotted line is the truth. "},
       {"latency", "Latency: bars are the sigma that the estimator states, the dotted line is the truth. "},
       {"consistency", "A NEES of 2 is right; above it the method is too sure of itself. "},
-      {"error_over_time", "Over time: means over the runs, up to the end of the shortest. "}};
+      {"error_over_time_", "Over time: means over the runs, up to the end of the shortest. "}};
   std::string notes;
   for (const Note& note : kNotes) {
-    const bool is_there = std::any_of(charts.begin(), charts.end(),
-                                      [&note](const NamedChart& named) { return named.name == note.chart; });
+    const bool is_there = std::any_of(charts.begin(), charts.end(), [&note](const NamedChart& named) {
+      return named.name.rfind(note.chart, 0) == 0;
+    });
     if (is_there) notes += note.text;
   }
   return notes;

@@ -32,20 +32,30 @@ ChartSeries mean_over_time(const std::string& name, int style, const std::vector
   return series;
 }
 
-/// A curve for each set and method.
-Chart chart_by_contender(const std::vector<RunResult>& runs, Chart chart, const Value& value) {
+/// A curve for each method on a set of flights.
+Chart chart_of_set(const std::vector<RunResult>& runs, const std::string& set, Chart chart,
+                   const Value& value) {
+  chart.title += ", " + set + " flights";
   chart.x = {"time since the first frame, s", false, {}};
-  int style = 0;
-  for (const Summary& summary : summarize(runs)) {
-    if (summary.contender.known_points > 0) continue;
+  for (const Method method : {Method::kPaper, Method::kJoint}) {
     std::vector<const RunResult*> its_runs;
     for (const RunResult& run : runs) {
-      if (set_of(run.flight) == summary.set && run.contender == summary.contender) its_runs.push_back(&run);
+      if (set_of(run.flight) == set && run.contender == Contender{method, 0}) its_runs.push_back(&run);
     }
-    chart.series.push_back(
-        mean_over_time(summary.set + " " + name_of(summary.contender), style++, its_runs, value));
+    if (its_runs.empty()) continue;
+    const int style = method == Method::kPaper ? 0 : 1;
+    chart.series.push_back(mean_over_time(name_of({method, 0}), style, its_runs, value));
   }
   return chart;
+}
+
+std::vector<std::string> sets_of(const std::vector<RunResult>& runs) {
+  std::vector<std::string> sets;
+  for (const RunResult& run : runs) {
+    if (std::find(sets.begin(), sets.end(), set_of(run.flight)) == sets.end())
+      sets.push_back(set_of(run.flight));
+  }
+  return sets;
 }
 
 std::vector<const RunResult*> calibrated(const std::vector<RunResult>& runs) {
@@ -93,13 +103,17 @@ std::vector<NamedChart> progress_charts(const std::vector<RunResult>& runs) {
   error.y = {"RMSE of the targets found so far, m", true, {}};
   found.title = "Targets found over time";
   found.y = {"share of the targets, %", false, {0.0, 25.0, 50.0, 75.0, 100.0}};
-  std::vector<NamedChart> charts{
-      {"error_over_time",
-       chart_by_contender(runs, error,
-                          [](const RunResult&, const ProgressSample& sample) { return sample.rmse_m; })},
-      {"found_over_time", chart_by_contender(runs, found, [](const RunResult&, const ProgressSample& sample) {
-         return std::optional(100.0 * sample.found_share);
-       })}};
+  std::vector<NamedChart> charts;
+  for (const std::string& set : sets_of(runs)) {
+    charts.push_back({"error_over_time_" + set,
+                      chart_of_set(runs, set, error, [](const RunResult&, const ProgressSample& sample) {
+                        return sample.rmse_m;
+                      })});
+    charts.push_back({"found_over_time_" + set,
+                      chart_of_set(runs, set, found, [](const RunResult&, const ProgressSample& sample) {
+                        return std::optional(100.0 * sample.found_share);
+                      })});
+  }
   const auto joint = calibrated(runs);
   charts.push_back({"latency_convergence", latency_convergence(joint)});
   charts.push_back({"boresight_convergence", boresight_convergence(joint)});

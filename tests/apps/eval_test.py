@@ -192,7 +192,7 @@ class Sweeps(AppTest):
         for drawing in drawings + [(self.folder / "sweep_pairs.svg").read_text()]:
             xml.etree.ElementTree.fromstring(drawing)
         self.assertNotIn("nan", page)
-        for name in "error_over_time", "found_over_time", "latency_convergence", "boresight_convergence":
+        for name in "error_over_time_stock", "found_over_time_stock", "latency_convergence", "boresight_convergence":
             xml.etree.ElementTree.parse(self.folder / f"{name}.svg")
 
     def test_the_page_says_what_it_is_of(self):
