@@ -38,11 +38,13 @@ class Limits(FaultTest):
 
     @unittest.skipIf(SANITIZED, "sanitizers need addresses without limit")
     def test_memory_that_runs_out_in_flight_is_a_reason(self):
-        with open(self.folder / "stderr", "w+", encoding="utf-8") as stderr, self.world.fly():
-            app = self.start(stderr=stderr)
-            wait_until(lambda: self.frames_recorded() > 5, "frames")
-            resource.prlimit(app.pid, resource.RLIMIT_AS, (100 * MIB, 100 * MIB))  # it gets nothing more
-            status = app.wait(PATIENCE_S)
+        with open(self.folder / "stderr", "w+", encoding="utf-8") as stderr:
+            with self.world.fly():
+                app = self.start(stderr=stderr)
+                wait_until(lambda: self.frames_recorded() > 5, "frames")
+                resource.prlimit(app.pid, resource.RLIMIT_AS, (100 * MIB, 100 * MIB))  # it gets nothing more
+            with self.world.fly():  # a stream that comes back needs memory
+                status = app.wait(PATIENCE_S)
             stderr.seek(0)
             words = stderr.read()
         self.assertEqual(status, 1, words)

@@ -44,21 +44,6 @@ std::optional<std::variant<PageRequest, Refusal>> read_request(ClientSocket& soc
   }
 }
 
-/// Whether the other end of a connection has an address of the loopback.
-bool is_of_this_computer(int descriptor) {
-  sockaddr_storage address{};
-  socklen_t size = sizeof address;
-  if (getpeername(descriptor, reinterpret_cast<sockaddr*>(&address), &size) != 0) return false;
-  if (address.ss_family == AF_INET) {
-    const auto& v4 = reinterpret_cast<const sockaddr_in&>(address);
-    return ntohl(v4.sin_addr.s_addr) >> 24 == IN_LOOPBACKNET;
-  }
-  if (address.ss_family != AF_INET6) return false;
-  const in6_addr& v6 = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
-  return IN6_IS_ADDR_LOOPBACK(&v6) != 0 ||
-         (IN6_IS_ADDR_V4MAPPED(&v6) != 0 && v6.s6_addr[12] == IN_LOOPBACKNET);
-}
-
 /// Holds one of a bounded number of places for its lifetime.
 class Place {
  public:
