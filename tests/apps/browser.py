@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A browser for the tests of the live page."""
+"""A browser for the tests of the live page, and another site for it to visit."""
+import http.server
 import shutil
+import threading
 import unittest
 
 from support import PATIENCE_S, AppTest
@@ -25,6 +27,37 @@ SCREENS = {
 
 def url_of(program):
     return program.wait_for(r"^page: (http://127\.0\.0\.1:\d+/)")[1]
+
+
+class OtherSite:
+    """A server that answers every request with the same content; `asked` holds the paths of the requests."""
+
+    def __init__(self, content_type, content):
+        self.asked = asked = []
+
+        class Handler(http.server.BaseHTTPRequestHandler):
+            def do_GET(self):
+                asked.append(self.path)
+                self.send_response(200)
+                self.send_header("Content-Type", content_type)
+                self.end_headers()
+                self.wfile.write(content)
+
+            def log_message(self, *_):
+                pass
+
+        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
+        self._thread = threading.Thread(target=self._server.serve_forever)
+        self.port = self._server.server_port
+
+    def __enter__(self):
+        self._thread.start()
+        return self
+
+    def __exit__(self, *_):
+        self._server.shutdown()
+        self._thread.join()
+        self._server.server_close()
 
 
 @unittest.skipUnless(sync_playwright, "no Playwright: scripts/test.sh installs it")

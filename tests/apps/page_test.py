@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
 """The live page, in a browser during a live run and with visitors of all kinds."""
-import http.server
 import json
 import math
 import re
@@ -10,7 +9,7 @@ import time
 import unittest
 import urllib.request
 
-from browser import HOSTILE_NAME, SCREENS, BrowserTest, url_of
+from browser import HOSTILE_NAME, SCREENS, BrowserTest, OtherSite, url_of
 from support import BIN, PATIENCE_S, AppTest, Live, World, run
 
 SCREENSHOTS = BIN.parent / "screenshots"  # for manual inspection
@@ -58,37 +57,6 @@ def tile_of(feature, zoom):
 TILE = b'<svg xmlns="http://www.w3.org/2000/svg" width="256" height="256"><path d="M0 0h256v256H0z" fill="#d0e8c0"/></svg>'
 
 
-class TileServer:
-    """A tile server with a map of one colour; `asked` holds the (zoom, x, y) of its requests."""
-
-    def __init__(self):
-        self.asked = asked = set()
-
-        class Handler(http.server.BaseHTTPRequestHandler):
-            def do_GET(self):
-                asked.add(tuple(map(int, re.findall(r"\d+", self.path))))
-                self.send_response(200)
-                self.send_header("Content-Type", "image/svg+xml")
-                self.end_headers()
-                self.wfile.write(TILE)
-
-            def log_message(self, *_):
-                pass
-
-        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        self._thread = threading.Thread(target=self._server.serve_forever)
-        self.url = f"http://127.0.0.1:{self._server.server_port}/{{z}}/{{x}}/{{y}}.svg"
-
-    def __enter__(self):
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_):
-        self._server.shutdown()
-        self._thread.join()
-        self._server.server_close()
-
-
 class LivePage(BrowserTest):
     """What an operator is promised, on a telephone and on a desk, by day and by night."""
 
@@ -115,8 +83,9 @@ class LivePage(BrowserTest):
         self.check_recorded_pictures(recording)
 
     def test_draws_the_tiles_of_a_server_where_one_is_configured(self):
-        with TileServer() as tiles:
-            config = self.write("config.json", {"live_page": {"tile_url": tiles.url, "tile_attribution": "<b>Maps</b>"}})
+        with OtherSite("image/svg+xml", TILE) as tiles:
+            tile_url = f"http://127.0.0.1:{tiles.port}/{{z}}/{{x}}/{{y}}.svg"
+            config = self.write("config.json", {"live_page": {"tile_url": tile_url, "tile_attribution": "<b>Maps</b>"}})
             with Live("geoloc_replay", self.make_recording(), "--config", config, "--http", "0", "--speed", "0",
                       "--out", self.objects_file) as replay:
                 url = url_of(replay)
@@ -126,8 +95,9 @@ class LivePage(BrowserTest):
                 self.assertEqual(page.locator("#attribution").inner_text(), "<b>Maps</b>")
                 self.assertEqual(replay.interrupt(), 0)
         self.assertEqual([fault for fault in self.faults if "CONNECTION" not in fault], [])
+        asked = {tuple(map(int, re.findall(r"\d+", path))) for path in tiles.asked}  # (zoom, x, y)
         for feature in json.loads(self.objects_file.read_text())["features"]:
-            self.assertTrue(any(tile_of(feature, zoom) == (zoom, x, y) for zoom, x, y in tiles.asked), feature)
+            self.assertTrue(any(tile_of(feature, zoom) == (zoom, x, y) for zoom, x, y in asked), feature)
 
     def finds_colour(self, page, selector, colour):
         """Waits until it is drawn: the page follows the run."""

@@ -1,24 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The live page that asks for a token: who has none sees nothing, and the token goes nowhere else."""
 import http.client
-import http.server
 import os
 import pty
 import re
-import shutil
 import stat
 import subprocess
-import threading
 import unittest
 
+from browser import BrowserTest
 from support import BIN, PATIENCE_S, AppTest, Live, run
-
-try:
-    from playwright.sync_api import sync_playwright
-except ImportError:
-    sync_playwright = None
-
-CHROMIUM = shutil.which("chromium")
 
 PATHS = "/", "/page.js", "/palette.css", "/events", "/frame", "/settings", "/objects/1", "/nowhere"
 
@@ -145,45 +136,8 @@ class PageToken(Guarded):
         refused("cannot be written", self.file)
 
 
-class OtherSite:
-    """A site with a link, for browsers another one than 127.0.0.1."""
-
-    def __init__(self, link):
-        class Handler(http.server.BaseHTTPRequestHandler):
-            def do_GET(self):
-                self.send_response(200)
-                self.send_header("Content-Type", "text/html")
-                self.end_headers()
-                self.wfile.write(f'<a href="{link}">the drone</a>'.encode())
-
-            def log_message(self, *_):
-                pass
-
-        self._server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        self._thread = threading.Thread(target=self._server.serve_forever)
-        self.url = f"http://localhost:{self._server.server_port}/"
-
-    def __enter__(self):
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_):
-        self._server.shutdown()
-        self._thread.join()
-        self._server.server_close()
-
-
-@unittest.skipUnless(sync_playwright, "no Playwright: scripts/test.sh installs it")
-@unittest.skipUnless(CHROMIUM, "no Chromium: apt-get install chromium")
-class TokenInBrowser(Guarded):
+class TokenInBrowser(Guarded, BrowserTest):
     """What an operator does with a link, or with the token itself."""
-
-    def setUp(self):
-        super().setUp()
-        self.playwright = sync_playwright().start()
-        self.addCleanup(self.playwright.stop)
-        self.browser = self.playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        self.addCleanup(self.browser.close)
 
     def new_page(self):
         page = self.browser.new_context().new_page()
@@ -213,9 +167,9 @@ class TokenInBrowser(Guarded):
                 by_form.wait_for_selector(proof)
             self.assert_shows_the_run(by_form, url)
 
-            with OtherSite(link) as other:
+            with OtherSite("text/html", f'<a href="{link}">the drone</a>'.encode()) as other:
                 from_elsewhere = self.new_page()
-                from_elsewhere.goto(other.url)
+                from_elsewhere.goto(f"http://localhost:{other.port}/")  # for browsers another site than 127.0.0.1
                 from_elsewhere.click("a")
                 self.assert_shows_the_run(from_elsewhere, url)
             self.assertEqual(replay.interrupt(), 0)

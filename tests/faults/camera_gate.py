@@ -48,14 +48,18 @@ class CameraGate:
                 continue
             with self._guard:
                 self._ends += [viewer, camera]
-            self._begin(self._pass_on, viewer, camera)
-            self._begin(self._pass_on, camera, viewer)
+            self._begin(self._pass_on, viewer, camera, self._edit_request)
+            self._begin(self._pass_on, camera, viewer, bytes)
+
+    def _edit_request(self, request):
+        """What the camera gets in place of what the viewer sends."""
+        return request
 
     @staticmethod
-    def _pass_on(source, target):
+    def _pass_on(source, target, edit):
         with source, contextlib.suppress(OSError):  # either end has gone
             while data := source.recv(65536):
-                target.sendall(data)
+                target.sendall(edit(data))
             target.shutdown(socket.SHUT_RDWR)
 
     def __enter__(self):

@@ -3,7 +3,8 @@
 import random
 import re
 import socket
-import threading
+
+from camera_gate import CameraGate
 
 
 def consecutive_ports():
@@ -22,51 +23,21 @@ def consecutive_ports():
         rtcp.close()
 
 
-class LossyProxy:
-    """Ends with the `with` block. `loss`: the share of RTP packets that does not come through; may be changed."""
+class LossyProxy(CameraGate):
+    """`loss`: the share of RTP packets that does not come through; may be changed."""
 
     def __init__(self, camera_port, loss):
         self.loss = loss
-        self._camera_port = camera_port
         self._random = random.Random(1)
-        self._listener = socket.create_server(("127.0.0.1", 0))
-        self.port = self._listener.getsockname()[1]
-        self._start(self._accept)
+        super().__init__(camera_port)
 
-    @staticmethod
-    def _start(step, *arguments):
-        threading.Thread(target=step, args=arguments, daemon=True).start()
-
-    def _accept(self):
-        while True:
-            try:
-                viewer, _ = self._listener.accept()
-            except OSError:  # the end
-                return
-            try:
-                camera = socket.create_connection(("127.0.0.1", self._camera_port))
-            except OSError:  # it is not there yet
-                viewer.close()
-                continue
-            self._start(self._pass_on, viewer, camera, self._with_own_ports)
-            self._start(self._pass_on, camera, viewer, bytes)
-
-    def _pass_on(self, source, target, edit):
-        with source:
-            try:
-                while data := source.recv(65536):
-                    target.sendall(edit(data))
-                target.shutdown(socket.SHUT_RDWR)
-            except OSError:  # either end has gone
-                pass
-
-    def _with_own_ports(self, request):
+    def _edit_request(self, request):
         match = re.search(rb"client_port=(\d+)-(\d+)", request)
         if not match:
             return request
         rtp, rtcp = consecutive_ports()
-        self._start(self._lose, rtp, int(match[1]), True)
-        self._start(self._lose, rtcp, int(match[2]), False)
+        self._begin(self._lose, rtp, int(match[1]), True)
+        self._begin(self._lose, rtcp, int(match[2]), False)
         port = rtp.getsockname()[1]
         return request.replace(match[0], b"client_port=%d-%d" % (port, port + 1))
 
@@ -76,9 +47,3 @@ class LossyProxy:
                 packet = source.recv(65536)
                 if not is_rtp or self._random.random() >= self.loss:
                     source.sendto(packet, ("127.0.0.1", viewer_port))
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self._listener.close()
