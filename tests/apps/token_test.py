@@ -8,7 +8,7 @@ import stat
 import subprocess
 import unittest
 
-from browser import BrowserTest
+from browser import BrowserTest, OtherSite
 from support import BIN, PATIENCE_S, AppTest, Live, run
 
 PATHS = "/", "/page.js", "/palette.css", "/events", "/frame", "/settings", "/objects/1", "/nowhere"
@@ -145,7 +145,7 @@ class TokenInBrowser(Guarded, BrowserTest):
         return page
 
     def assert_shows_the_run(self, page, url):
-        page.wait_for_selector("#objects tbody tr")
+        page.wait_for_selector("#objects li")
         self.assertEqual(page.url, url)
         self.assertEqual(page.evaluate("document.cookie"), "")
 
@@ -161,7 +161,7 @@ class TokenInBrowser(Guarded, BrowserTest):
 
             by_form = self.new_page()
             by_form.goto(url)
-            for token, proof in ("wrong", "text=That is not the token"), (self.file.read_text().strip(), "#objects tbody tr"):
+            for token, proof in ("wrong", "text=That is not the token"), (self.file.read_text().strip(), "#objects li"):
                 by_form.fill("input[name=token]", token)
                 by_form.click("button")
                 by_form.wait_for_selector(proof)
