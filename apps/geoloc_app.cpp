@@ -10,6 +10,7 @@
 #include "app/closing_words.hpp"
 #include "app/console.hpp"
 #include "app/damage_watch.hpp"
+#include "app/detector_timing.hpp"
 #include "app/live_inputs.hpp"
 #include "app/live_options.hpp"
 #include "app/live_run.hpp"
@@ -195,6 +196,8 @@ int main(int argc, char** argv) {
       std::fputs(live_settings_table().c_str(), stdout);
     } else if (options.print_config) {
       std::puts(live_to_json(load_config(options).config).dump(2).c_str());
+    } else if (options.time_detector) {
+      std::puts(time_detector(options).c_str());
     } else {
       require_resources();
       program = std::make_unique<Program>(options);

@@ -43,21 +43,22 @@ say "The page with the flight will be at $page"
 install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}"
 [ -f build/release/build.ninja ] || configure release "${PROGRAMS_ONLY[@]}"
 say "Building"
-cmake --build build/release --target geoloc_app geoloc_sim geoloc_replay ${fast:+geoloc_detect}
+cmake --build build/release --target geoloc_app geoloc_sim
 
 speed=1
 if [ -n "$fast" ]; then
   # All targets are found where some 350 pictures of the 210 s are searched, and beside the simulated drone a picture takes 1.6 times as
   # long as on its own.
-  picture=tests/data/detection/targets.jpg
-  picture_ms=$("$bin/geoloc_detect" "$picture" "$picture" "$picture" "$picture" 2>&1 | sed -n 's/.* \([0-9.]*\) ms a picture.*/\1/p')
-  speed=$(awk -v ms="${picture_ms:-1000}" 'BEGIN { x = int(210e3 / 350 / (1.6 * ms)); print (x < 1 ? 1 : (x > 6 ? 6 : x)) }')
+  picture_ms=$("$bin/geoloc_app" --time-detector | sed 's/ ms per picture.*//')
+  speed=$(awk -v ms="$picture_ms" 'BEGIN { x = int(210e3 / 350 / (1.6 * (ms + 1))); print (x < 1 ? 1 : (x > 6 ? 6 : x)) }')
   say "The detector takes $picture_ms ms per picture: flying at $speed times real time"
 fi
 
 say "Flying. The page is at $page"
+nice -n 19 cmake --build build/release --target geoloc_replay >build/replay.log 2>&1 &  # for the page after the flight
 bash scripts/fly.sh "$bin" "$out" --flight "$flight" --scenario "$scenario" --seed "$seed" --speed "$speed" -- \
   --http "$port" "${method[@]}"
+wait $! || { cat build/replay.log >&2; exit 1; }
 again=("$bin/geoloc_replay" "$out/recording" --http "$port")
 say "The flight again, on the page: ${again[*]}"
 [ -t 1 ] || exit 0

@@ -69,6 +69,6 @@ configure() {
   export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # shares compiled files between clones
   say "Configuring ($1)"
   # A newer compiler may have new warnings, which must not stop a user: only .ci/run makes them errors.
-  cmake --preset "$1" -DGEOLOC_WARNINGS_AS_ERRORS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8 "${@:2}" \
+  cmake --preset "$1" -DGEOLOC_WARNINGS_AS_ERRORS=OFF -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16 "${@:2}" \
     >build/configure.log 2>&1 || { cat build/configure.log; return 1; }
 }

@@ -21,6 +21,8 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   program.add_flag("--print-config", options.print_config, "Print the settings as JSON, and exit");
   program.add_flag("--print-settings", options.print_settings,
                    "Print each setting's default, range, unit and meaning as a table, and exit");
+  program.add_flag("--time-detector", options.time_detector,
+                   "Print how long the detector takes for a picture on this computer, and exit");
   add_prior_options(program, options.priors);
   add_ground_options(program, options.ground);
   add_output_options(program, options.outputs);

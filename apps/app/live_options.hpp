@@ -24,6 +24,7 @@ struct LiveOptions {
   std::string truth_file;
   bool print_config = false;
   bool print_settings = false;
+  bool time_detector = false;
   PriorFiles priors;
   GroundOptions ground;
   OutputOptions outputs;
