@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/camera_file.hpp"
 #include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/object_pictures.hpp"
@@ -87,6 +88,15 @@ std::string parse_time_quality(const json& value) {
   return value.get<std::string>();
 }
 
+CameraMount parse_mount(const json& value) {
+  CameraMount mount;
+  std::vector<std::string> problems;
+  mount_from_json(value, "mount", mount, problems);
+  if (problems.empty()) problems = CameraConfig{{}, mount}.problems();
+  if (!problems.empty()) throw std::invalid_argument(problems.front());
+  return mount;
+}
+
 RecordedFrame parse_frame(const std::string& line) {
   const json value = json::parse(line, nullptr, false);
   if (value.is_discarded() || !value.is_object()) throw std::invalid_argument("not a JSON object");
@@ -99,6 +109,7 @@ RecordedFrame parse_frame(const std::string& line) {
   frame.captured_at = HostTime{std::chrono::microseconds{time.get<std::int64_t>()}};
   if (value.contains("time_sigma_s")) frame.time_sigma_s = parse_time_sigma_s(value["time_sigma_s"]);
   if (value.contains("time_quality")) frame.time_quality = parse_time_quality(value["time_quality"]);
+  if (value.contains("mount")) frame.mount = parse_mount(value["mount"]);
   const json& detections = member(value, "detections");
   if (!detections.is_array()) throw std::invalid_argument("detections must be a list");
   for (const json& detection : detections) frame.detections.push_back(parse_detection(detection));
