@@ -65,6 +65,7 @@ FlightFacts facts_of(const StillsOptions& options, const std::optional<io::Label
   FlightFacts facts;
   facts.utc_offset_h = options.utc_offset_h;
   facts.take_off_height_m = options.take_off_height_m;
+  facts.camera_pitch_deg = options.gimbal_pitch_deg;
   if (labels) facts.marks_height_m = mean_height_m(labels->marks);
   if (!options.camera_file.empty())
     facts.lens =

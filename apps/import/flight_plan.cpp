@@ -111,6 +111,10 @@ void take_courses(std::vector<Exposure>& exposures, const std::vector<TimedStill
   }
 }
 
+bool tells_camera(const io::StillAttitude& attitude) {
+  return attitude.source == io::AttitudeSource::kCamera || attitude.source == io::AttitudeSource::kBody;
+}
+
 Exposure exposure_of(const TimedStill& timed, HostTime begin) {
   const io::Still& still = timed.named.still;
   Exposure exposure;
@@ -120,7 +124,7 @@ Exposure exposure_of(const TimedStill& timed, HostTime begin) {
   exposure.position.time = since_boot;
   exposure.position.position = still.position;
   exposure.attitude = {since_boot, still.attitude.vehicle};
-  if (still.attitude.source == io::AttitudeSource::kCamera) exposure.mount = still.attitude.mount;
+  if (tells_camera(still.attitude)) exposure.mount = still.attitude.mount;
   if (still.sigma_horizontal_m) {
     constexpr std::uint8_t kFix3d = 3, kRtkFloat = 5, kRtkFixed = 6;
     const int flag = still.rtk_flag.value_or(0);
@@ -141,23 +145,38 @@ std::vector<std::string> names_where(const std::vector<TimedStill>& stills,
   return names;
 }
 
-void judge_attitudes(const std::vector<TimedStill>& stills, FlightPlan& plan) {
-  const auto without_angles = names_where(stills, [](const io::StillAttitude& attitude) {
-    return attitude.source == io::AttitudeSource::kHeading || attitude.source == io::AttitudeSource::kNone;
-  });
+/// How the cameras looked that tell nothing of it: as the user says, or straight down.
+void assume_pitch(const std::vector<std::string>& names, std::size_t all, const FlightFacts& facts,
+                  FlightPlan& plan) {
+  constexpr double kToldSigma_deg = 2.0, kNadirSigma_deg = 5.0;
+  if (names.empty()) {
+    if (facts.camera_pitch_deg)
+      plan.assumptions.push_back("--gimbal-pitch-deg is not used: the pictures tell how the camera looked");
+    return;
+  }
+  plan.mount.pitch_deg = facts.camera_pitch_deg.value_or(plan.mount.pitch_deg);
+  plan.sigma_attitude_deg = facts.camera_pitch_deg ? kToldSigma_deg : kNadirSigma_deg;
+  const std::string how = facts.camera_pitch_deg
+                              ? fmt::format("with a pitch of {:g} degrees", *facts.camera_pitch_deg)
+                              : std::string("straight down");
+  plan.assumptions.push_back(
+      fmt::format("{} of {} pictures do not tell how the camera looked ({}): they are taken to look {}, to "
+                  "{:g} degrees{}",
+                  names.size(), all, name_list(names), how, plan.sigma_attitude_deg,
+                  facts.camera_pitch_deg ? "" : " (--gimbal-pitch-deg says another pitch)"));
+}
+
+void judge_attitudes(const std::vector<TimedStill>& stills, const FlightFacts& facts, FlightPlan& plan) {
+  const auto without_angles =
+      names_where(stills, [](const io::StillAttitude& attitude) { return !tells_camera(attitude); });
   const auto without_heading = names_where(
       stills, [](const io::StillAttitude& attitude) { return attitude.source == io::AttitudeSource::kNone; });
   const auto contradictory = names_where(stills, [](const io::StillAttitude& attitude) {
     constexpr double kMostTurn_deg = 90.0;
     return std::abs(attitude.yaw_difference_deg.value_or(0.0)) > kMostTurn_deg;
   });
-  plan.is_oriented = without_angles.empty();
-  if (!without_angles.empty())
-    plan.assumptions.push_back(
-        fmt::format("{} of {} pictures do not tell how the camera looked ({}): they are taken to look "
-                    "straight down, to 5 "
-                    "degrees",
-                    without_angles.size(), stills.size(), name_list(without_angles)));
+  assume_pitch(without_angles, stills.size(), facts, plan);
+  plan.is_heading_assumed = !without_heading.empty();
   if (!without_heading.empty())
     plan.assumptions.push_back(fmt::format(
         "{} of {} pictures tell no heading ({}): their top is taken to be where the vehicle flew to",
@@ -192,7 +211,7 @@ FlightPlan plan_flight(std::vector<NamedStill> stills, const FlightFacts& facts)
   const FlightHeights heights =
       heights_of(timed, {facts.take_off_height_m, facts.marks_height_m}, plan.assumptions);
   plan.take_off_height_m = heights.take_off_absolute_m;
-  judge_attitudes(timed, plan);
+  judge_attitudes(timed, facts, plan);
   for (std::size_t i = 0; i < timed.size(); ++i) {
     Exposure exposure = exposure_of(timed[i], timed.front().at);
     exposure.position.height_above_home_m = heights.above_take_off_m[i];

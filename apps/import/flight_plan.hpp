@@ -18,8 +18,9 @@ namespace geoloc::apps {
 struct FlightFacts {
   std::optional<double> utc_offset_h;       ///< what the camera's clock is ahead of UTC
   std::optional<double> take_off_height_m;  ///< in the datum of the pictures' absolute heights
-  std::optional<double> marks_height_m;  ///< mean of a survey's marks: the take-off's where nothing is told
-  std::optional<io::Lens> lens;          ///< in place of the pictures' own
+  std::optional<double> marks_height_m;    ///< mean of a survey's marks: the take-off's where nothing is told
+  std::optional<double> camera_pitch_deg;  ///< of pictures that do not tell their camera's; -90 is down
+  std::optional<io::Lens> lens;            ///< in place of the pictures' own
 };
 
 /// A picture as a moment of a flight.
@@ -28,7 +29,7 @@ struct Exposure {
   HostTime at;
   PositionSample position;
   AttitudeSample attitude;
-  std::optional<CameraMount> mount;   ///< nullopt: straight down
+  std::optional<CameraMount> mount;   ///< nullopt: the plan's
   std::optional<io::GnssClaim> gnss;  ///< where the receiver claims an accuracy
 };
 
@@ -37,8 +38,10 @@ struct FlightPlan {
   std::vector<Exposure> exposures;
   CameraIntrinsics camera;
   std::optional<double> take_off_height_m;  ///< in the pictures' datum, where that is known
+  CameraMount mount;                        ///< of the exposures that have none of their own
   bool is_synchronised = false;             ///< the receiver knew when each picture was exposed
-  bool is_oriented = true;                  ///< false: attitudes were assumed
+  double sigma_attitude_deg = 0.0;          ///< of angles that were assumed; 0: all are told
+  bool is_heading_assumed = false;          ///< of some exposure
   std::vector<std::string> assumptions;     ///< what was not told, and what was taken instead
   std::vector<std::string> left_out;        ///< file and reason
 };

@@ -30,6 +30,12 @@ void add_stills_command(CLI::App& program, StillsOptions& options) {
                   "their own above it")
       ->check(CLI::Range(-1000.0, 9000.0))
       ->type_name("X");
+  stills
+      .add_option(
+          "--gimbal-pitch-deg", options.gimbal_pitch_deg,
+          "The camera's pitch, deg, in pictures that do not tell it: -90 is straight down, the default")
+      ->check(CLI::Range(-90.0, 0.0))
+      ->type_name("X");
   add_detector_options(stills, options.detector);
   add_detector_tuning(stills, options.tuning);
   for (const char* detector_option :

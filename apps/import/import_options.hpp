@@ -18,6 +18,7 @@ struct StillsOptions {
   std::string camera_file;
   std::optional<double> utc_offset_h;
   std::optional<double> take_off_height_m;
+  std::optional<double> gimbal_pitch_deg;
   DetectorOptions detector;
   DetectorTuning tuning;
 };

@@ -15,10 +15,11 @@ constexpr int kRepetitions = 3;
 /// How pictures differ from a live run: each tells where it was taken itself. What is left of a latency is
 /// how old a receiver's position is, which survey cameras with RTK know.
 nlohmann::ordered_json settings_for(const FlightPlan& plan) {
-  constexpr double kReceiverLagSigma_s = 0.1, kNadirSigma_deg = 5.0;
-  nlohmann::ordered_json joint{
-      {"prior", {{"sigma_latency_s", plan.is_synchronised ? 0.0 : kReceiverLagSigma_s}}}};
-  if (!plan.is_oriented) joint["sigma_attitude_deg"] = kNadirSigma_deg;
+  constexpr double kReceiverLagSigma_s = 0.1, kCourseSigma_deg = 10.0;
+  nlohmann::ordered_json prior{{"sigma_latency_s", plan.is_synchronised ? 0.0 : kReceiverLagSigma_s}};
+  if (plan.is_heading_assumed) prior["sigma_boresight_z_deg"] = kCourseSigma_deg;  // wind
+  nlohmann::ordered_json joint{{"prior", std::move(prior)}};
+  if (plan.sigma_attitude_deg > 0.0) joint["sigma_attitude_deg"] = plan.sigma_attitude_deg;
   return {{"joint", std::move(joint)}};
 }
 
@@ -30,7 +31,7 @@ RecordingMaker::~RecordingMaker() {
 }
 
 void RecordingMaker::write(const FlightPlan& plan, const PictureLooks& looks) {
-  writer_.write_camera({plan.camera, CameraMount{}});
+  writer_.write_camera({plan.camera, plan.mount});
   writer_.write_config(settings_for(plan).dump(2));
   for (std::size_t i = 0; i < plan.exposures.size(); ++i) {
     const Exposure& exposure = plan.exposures[i];

@@ -18,6 +18,10 @@ WIDTH, HEIGHT = 4000, 3000
 POSITION, ATTITUDE, GPS = 33, 30, 24
 
 
+# Of a picture that tells nothing of how it looked.
+UNTOLD = {f"{vehicle}{angle}Degree": None for vehicle in ("Gimbal", "Flight") for angle in ("Roll", "Pitch", "Yaw")}
+
+
 def messages(recording, wanted, form):
     """(time in us, fields) of each message of that number in the telemetry, the same one but once."""
     log, found = (recording / "telemetry.tlog").read_bytes(), []
@@ -171,7 +175,38 @@ class ImportedStills(ImportTest):
         self.assertIn("found 5 / 5", found)
         self.assertLess(rmse_m(found), 1.1 * rmse_m(known))
 
-    def survey_pictures(self):
+    @unittest.skipUnless((REAL / "helenenschacht").exists(), "the real survey is not here")
+    def test_a_survey_without_attitudes_needs_but_its_pitch(self):
+        self.survey_pictures(**UNTOLD)
+        self.assert_imported(self.import_stills("--gimbal-pitch-deg", -80, labels=REAL / "helenenschacht/gcp_list.txt"))
+        found = run("geoloc_replay", self.recording, "--out", self.folder / "found.geojson").err
+        self.assertIn("found 5 / 5", found)
+        self.assertLess(rmse_m(found), 0.3)
+
+    def test_pictures_of_a_flight_tell_as_much_as_its_telemetry(self):
+        """A simulated camera, fixed in a vehicle that tilts: its angles come by way of a gimbal's."""
+        flight = self.folder / "flight"
+        self.assertEqual(run("geoloc_sim", "--record", flight, "--latency-s", 0, "--jitter-s", 0).status, 0)
+        seen = frames(flight)[::10]
+        (flight / "frames.jsonl").write_text("".join(json.dumps(frame) + "\n" for frame in seen))
+        positions, attitudes = messages_of(flight, POSITION, "Iiiii"), unwrapped(messages_of(flight, ATTITUDE, "Ifff"))
+        tags, labels = {}, []
+        for number, frame in enumerate(seen):
+            name = f"{number:03}.jpg"
+            tags[name] = flight_tags(frame["time_us"], between(positions, frame["time_us"]),
+                                     between(attitudes, frame["time_us"]))
+            labels += [f"{name},{x + w / 2 - 0.5},{y + h / 2 - 0.5},{w},{h}" for x, y, w, h in
+                       (detection["box"] for detection in frame["detections"])] or [f"{name},,,,"]
+        self.put(tags, size=(1280, 720))
+        self.assert_imported(self.import_stills("--camera", flight / "camera.json", labels=self.label(
+            *labels, header="picture,u,v,width,height")))
+        self.assertEqual(len(frames(self.recording)), len(seen))
+        truth = ("--truth", flight / "truth.geojson", "--out", self.folder / "objects.geojson")
+        known, found = (run("geoloc_replay", recording, *truth).err for recording in (flight, self.recording))
+        self.assertEqual(re.search(r"found (\d+) /", found)[1], re.search(r"found (\d+) /", known)[1], known + found)
+        self.assertLess(rmse_m(found), 1.5 * rmse_m(known), known + found)
+
+    def survey_pictures(self, **changes):
         """Pictures with the tags that a survey's would have: its own are not to be had, but its telemetry is."""
         source = REAL / "helenenschacht"
         positions, attitudes = messages_of(source, POSITION, "Iiiii"), messages_of(source, ATTITUDE, "Ifff")
@@ -186,7 +221,8 @@ class ImportedStills(ImportTest):
             stamp_us = next((centres[key] for key in centres if abs(key[0] - float(words[3])) < 1 and
                              abs(key[1] - float(words[4])) < 1), None)
             if stamp_us is not None:
-                tags[words[5]] = survey_tags(stamp_us, between(positions, stamp_us), between(attitudes, stamp_us))
+                tags[words[5]] = survey_tags(stamp_us, between(positions, stamp_us),
+                                             between(attitudes, stamp_us), **changes)
         self.put(tags, size=(5472, 3648))
         return tags
 
@@ -203,6 +239,16 @@ def messages_of(recording, wanted, form):
     return found
 
 
+def unwrapped(attitudes):
+    """Without jumps of a turn, so that between() may take the mean of two yaws."""
+    turns, before, smooth = 0, 0, []
+    for *others, yaw in attitudes:
+        turns -= round((yaw - before) / math.tau)
+        before = yaw
+        smooth.append((*others, yaw + turns * math.tau))
+    return smooth
+
+
 def between(samples, stamp_us):
     after = next(i for i, sample in enumerate(samples) if sample[0] >= stamp_us)
     a, b = samples[after - 1], samples[after]
@@ -210,13 +256,35 @@ def between(samples, stamp_us):
     return [x + share * (y - x) for x, y in zip(a, b)]
 
 
-def survey_tags(stamp_us, position, attitude):
+def exposure_tags(stamp_us, position):
     taken = datetime.datetime.fromtimestamp(stamp_us / 1e6, datetime.timezone.utc)
-    return dji_tags(DateTimeOriginal=taken.strftime("%Y:%m:%d %H:%M:%S"), SubSecTimeOriginal=f"{taken.microsecond:06}",
-                    OffsetTimeOriginal="+00:00", FocalLengthIn35mmFormat=29, GPSLatitude=position[2] / 1e7,
-                    GPSLongitude=position[3] / 1e7, GPSLongitudeRef="E", GPSAltitude=position[4] / 1e3,
-                    AbsoluteAltitude=position[4] / 1e3, RelativeAltitude=position[5] / 1e3, GimbalPitchDegree=-80,
-                    GimbalYawDegree=math.degrees(attitude[4]), FlightYawDegree=None, FlightRollDegree=None)
+    return {"DateTimeOriginal": taken.strftime("%Y:%m:%d %H:%M:%S"), "SubSecTimeOriginal": f"{taken.microsecond:06}",
+            "OffsetTimeOriginal": "+00:00", "GPSLatitude": abs(position[2]) / 1e7,
+            "GPSLatitudeRef": "N" if position[2] > 0 else "S", "GPSLongitude": abs(position[3]) / 1e7,
+            "GPSLongitudeRef": "E" if position[3] > 0 else "W", "GPSAltitude": position[4] / 1e3,
+            "AbsoluteAltitude": position[4] / 1e3, "RelativeAltitude": position[5] / 1e3}
+
+
+def survey_tags(stamp_us, position, attitude, **changes):
+    return dji_tags(**{**exposure_tags(stamp_us, position), "FocalLengthIn35mmFormat": 29, "GimbalPitchDegree": -80,
+                       "GimbalYawDegree": math.degrees(attitude[4]), "FlightYawDegree": None, "FlightRollDegree": None,
+                       **changes})
+
+
+def flight_tags(stamp_us, position, attitude):
+    """Of a camera that looks straight down from a level vehicle, and with it to the side from one that tilts."""
+    _, _, roll, pitch, yaw = attitude
+    sr, cr, sp, cp, sy, cy = (f(angle) for angle in (roll, pitch, yaw) for f in (math.sin, math.cos))
+    ned_from_body = [[cp * cy, sr * sp * cy - cr * sy, cr * sp * cy + sr * sy],
+                     [cp * sy, sr * sp * sy + cr * cy, cr * sp * sy - sr * cy], [-sp, sr * cp, cr * cp]]
+    # The camera's forward, right and down are the body's down, right and backward.
+    forward, right, down = ([scale * row[axis] for row in ned_from_body] for axis, scale in ((2, 1), (1, 1), (0, -1)))
+    degrees = {"Roll": math.atan2(right[2], down[2]), "Pitch": -math.asin(forward[2]),
+               "Yaw": math.atan2(forward[1], forward[0])}
+    return dji_tags(**exposure_tags(stamp_us, position),
+                    **{f"Gimbal{name}Degree": math.degrees(angle) for name, angle in degrees.items()},
+                    **{f"Flight{name}Degree": math.degrees(angle) for name, angle in
+                       {"Roll": roll, "Pitch": pitch, "Yaw": yaw}.items()})
 
 
 class IncompleteStills(ImportTest):
@@ -242,8 +310,7 @@ class IncompleteStills(ImportTest):
         self.assertEqual([time - times[0] for time in times], [0, 250_000, 500_000, 750_000])
 
     def test_no_attitude(self):
-        untold = {f"{vehicle}{angle}Degree": None for vehicle in ("Gimbal", "Flight") for angle in ("Roll", "Pitch", "Yaw")}
-        self.put({f"{i}.jpg": dji_tags(DateTimeOriginal=f"2016:06:23 16:32:4{i}", GPSLongitude=91.9936 - i * 1e-4, **untold)
+        self.put({f"{i}.jpg": dji_tags(DateTimeOriginal=f"2016:06:23 16:32:4{i}", GPSLongitude=91.9936 - i * 1e-4, **UNTOLD)
                   for i in range(3)})
         self.assert_imported(self.import_stills(), "3 of 3 pictures do not tell how the camera looked", "straight down",
                              "3 of 3 pictures tell no heading")
@@ -251,6 +318,15 @@ class IncompleteStills(ImportTest):
             self.assertAlmostEqual(math.degrees(attitude[3]), 90, delta=0.1)  # it flew east
         settings = json.loads((self.recording / "config.json").read_text())
         self.assertEqual(settings["joint"]["sigma_attitude_deg"], 5)
+
+    def test_a_pitch_that_the_user_tells(self):
+        self.put({"a.jpg": dji_tags(GPSImgDirection=33.5, **UNTOLD)})
+        result = self.import_stills("--gimbal-pitch-deg", -80)
+        self.assert_imported(result, "look with a pitch of -80 degrees, to 2 degrees")
+        self.assertNotIn("heading", result.err)
+        self.assertEqual(json.loads((self.recording / "camera.json").read_text())["mount"]["pitch_deg"], -80)
+        (_, attitude), = messages(self.recording, ATTITUDE, "Ifff")
+        self.assertAlmostEqual(math.degrees(attitude[3]), 33.5, places=3)
 
     def test_yaws_that_contradict_each_other(self):
         self.put({"a.jpg": dji_tags(GimbalYawDegree=41), "b.jpg": dji_tags(DateTimeOriginal="2016:06:23 16:32:45")})
