@@ -10,7 +10,7 @@ import struct
 import unittest
 
 from still_pictures import EXIFTOOL, dji_tags, grey_jpeg, read_tags, write_tags
-from support import SOURCE, AppTest, rmse_m, run
+from support import SOURCE, AppTest, Live, rmse_m, run
 
 # Real flights that may not be copied; where they are not, their tests are skipped.
 REAL = pathlib.Path(os.environ.get("GEOLOC_REAL_DATA", SOURCE.parent / "shared/data/real"))
@@ -410,6 +410,14 @@ class UselessStills(ImportTest):
         before = (self.recording / "frames.jsonl").read_bytes()
         self.assert_refused(self.import_stills(), "recording: exists already")
         self.assertEqual((self.recording / "frames.jsonl").read_bytes(), before)
+
+    def test_an_import_that_is_stopped_leaves_nothing_behind(self):
+        self.put({f"{i:03}.jpg": dji_tags() for i in range(60)})
+        with Live("geoloc_import", "stills", self.pictures, "--out", self.recording) as running:
+            running.wait_for("assumed: ")  # and now it looks into the pictures, which takes it seconds
+            self.assertEqual(running.interrupt(), 1)
+            running.wait_for("stopped: nothing was written")
+        self.assert_nothing_written()
 
     def test_wrong_commands(self):
         self.assert_refused(run("geoloc_import"), "subcommand")
