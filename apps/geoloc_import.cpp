@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Makes recordings of flights that were flown without geoloc, for geoloc_replay.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <numeric>
@@ -35,9 +36,12 @@ void tell_left_out(const std::vector<std::string>& left_out) {
   if (left_out.size() > kMostTold) tell("left out: " + std::to_string(left_out.size() - kMostTold) + " more");
 }
 
+/// Each once, though a folder and its pictures may both be named.
 std::vector<std::filesystem::path> files_of(const std::vector<DetectInput>& inputs) {
   std::vector<std::filesystem::path> files;
-  for (const DetectInput& input : inputs) files.push_back(input.file);
+  for (const DetectInput& input : inputs) files.push_back(std::filesystem::weakly_canonical(input.file));
+  std::sort(files.begin(), files.end());
+  files.erase(std::unique(files.begin(), files.end()), files.end());
   return files;
 }
 
@@ -98,6 +102,7 @@ FlightPlan plan_of(const Program& program, const StopSignal& stop) {
   tell_left_out(read.left_out);
   FlightPlan plan = plan_flight(std::move(read.stills), program.facts);
   tell_left_out(plan.left_out);
+  for (const std::string& note : plan.notes) tell(note);
   for (const std::string& assumption : plan.assumptions) tell("assumed: " + assumption);
   if (plan.exposures.empty() && !stop.is_requested())
     throw std::runtime_error("no picture can be used, so that nothing was written");

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <stdexcept>
 #include <tuple>
@@ -15,7 +14,7 @@
 #include "geoloc/geometry/angles.hpp"
 #include "import/exposure_heights.hpp"
 #include "import/exposure_times.hpp"
-#include "import/name_list.hpp"
+#include "import/flight_notes.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -111,10 +110,6 @@ void take_courses(std::vector<Exposure>& exposures, const std::vector<TimedStill
   }
 }
 
-bool tells_camera(const io::StillAttitude& attitude) {
-  return attitude.source == io::AttitudeSource::kCamera || attitude.source == io::AttitudeSource::kBody;
-}
-
 Exposure exposure_of(const TimedStill& timed, HostTime begin) {
   const io::Still& still = timed.named.still;
   Exposure exposure;
@@ -134,58 +129,6 @@ Exposure exposure_of(const TimedStill& timed, HostTime begin) {
                                   still.sigma_horizontal_m, still.sigma_height_m};
   }
   return exposure;
-}
-
-std::vector<std::string> names_where(const std::vector<TimedStill>& stills,
-                                     const std::function<bool(const io::StillAttitude&)>& condition) {
-  std::vector<std::string> names;
-  for (const TimedStill& timed : stills) {
-    if (condition(timed.named.still.attitude)) names.push_back(timed.named.file.filename().string());
-  }
-  return names;
-}
-
-/// How the cameras looked that tell nothing of it: as the user says, or straight down.
-void assume_pitch(const std::vector<std::string>& names, std::size_t all, const FlightFacts& facts,
-                  FlightPlan& plan) {
-  constexpr double kToldSigma_deg = 2.0, kNadirSigma_deg = 5.0;
-  if (names.empty()) {
-    if (facts.camera_pitch_deg)
-      plan.assumptions.push_back("--gimbal-pitch-deg is not used: the pictures tell how the camera looked");
-    return;
-  }
-  plan.mount.pitch_deg = facts.camera_pitch_deg.value_or(plan.mount.pitch_deg);
-  plan.sigma_attitude_deg = facts.camera_pitch_deg ? kToldSigma_deg : kNadirSigma_deg;
-  const std::string how = facts.camera_pitch_deg
-                              ? fmt::format("with a pitch of {:g} degrees", *facts.camera_pitch_deg)
-                              : std::string("straight down");
-  plan.assumptions.push_back(
-      fmt::format("{} of {} pictures do not tell how the camera looked ({}): they are taken to look {}, to "
-                  "{:g} degrees{}",
-                  names.size(), all, name_list(names), how, plan.sigma_attitude_deg,
-                  facts.camera_pitch_deg ? "" : " (--gimbal-pitch-deg says another pitch)"));
-}
-
-void judge_attitudes(const std::vector<TimedStill>& stills, const FlightFacts& facts, FlightPlan& plan) {
-  const auto without_angles =
-      names_where(stills, [](const io::StillAttitude& attitude) { return !tells_camera(attitude); });
-  const auto without_heading = names_where(
-      stills, [](const io::StillAttitude& attitude) { return attitude.source == io::AttitudeSource::kNone; });
-  const auto contradictory = names_where(stills, [](const io::StillAttitude& attitude) {
-    constexpr double kMostTurn_deg = 90.0;
-    return std::abs(attitude.yaw_difference_deg.value_or(0.0)) > kMostTurn_deg;
-  });
-  assume_pitch(without_angles, stills.size(), facts, plan);
-  plan.is_heading_assumed = !without_heading.empty();
-  if (!without_heading.empty())
-    plan.assumptions.push_back(fmt::format(
-        "{} of {} pictures tell no heading ({}): their top is taken to be where the vehicle flew to",
-        without_heading.size(), stills.size(), name_list(without_heading)));
-  if (!contradictory.empty())
-    plan.assumptions.push_back(fmt::format(
-        "{} of {} pictures tell a camera that looks to the rear of the vehicle ({}): the camera's heading is "
-        "taken, not the vehicle's",
-        contradictory.size(), stills.size(), name_list(contradictory)));
 }
 
 void refuse_long_span(const std::vector<TimedStill>& stills) {
@@ -211,16 +154,15 @@ FlightPlan plan_flight(std::vector<NamedStill> stills, const FlightFacts& facts)
   const FlightHeights heights =
       heights_of(timed, {facts.take_off_height_m, facts.marks_height_m}, plan.assumptions);
   plan.take_off_height_m = heights.take_off_absolute_m;
-  judge_attitudes(timed, facts, plan);
+  note_heights(timed, plan);
+  note_rtk(timed, plan);
+  assume_attitudes(timed, facts.camera_pitch_deg, plan);
   for (std::size_t i = 0; i < timed.size(); ++i) {
     Exposure exposure = exposure_of(timed[i], timed.front().at);
     exposure.position.height_above_home_m = heights.above_take_off_m[i];
     exposure.position.height_msl_m = heights.above_take_off_m[i] + heights.take_off_msl_m.value_or(0.0);
     plan.exposures.push_back(std::move(exposure));
   }
-  plan.is_synchronised = std::all_of(timed.begin(), timed.end(), [](const TimedStill& still) {
-    return still.named.still.rtk_flag.value_or(0) > 0;
-  });
   take_velocities(plan.exposures);
   take_courses(plan.exposures, timed);
   return plan;

@@ -42,6 +42,7 @@ struct FlightPlan {
   bool is_synchronised = false;             ///< the receiver knew when each picture was exposed
   double sigma_attitude_deg = 0.0;          ///< of angles that were assumed; 0: all are told
   bool is_heading_assumed = false;          ///< of some exposure
+  std::vector<std::string> notes;           ///< what the pictures tell of their accuracy
   std::vector<std::string> assumptions;     ///< what was not told, and what was taken instead
   std::vector<std::string> left_out;        ///< file and reason
 };

@@ -126,7 +126,8 @@ class ImportedStills(ImportTest):
     def test_accuracies_of_rtk_are_the_receivers_claims(self):
         rtk = {"RtkFlag": 50, "RtkStdLon": 0.03, "RtkStdLat": 0.04, "RtkStdHgt": 0.02}
         self.put({"a.jpg": {**dji_tags(), **{f"XMP-drone-dji:{name}": value for name, value in rtk.items()}}})
-        self.assert_imported(self.import_stills())
+        self.assert_imported(self.import_stills(), "RTK: of 1 pictures, 1 have a fixed solution",
+                             "heights: above the take-off, and above the ellipsoid")
         (_, gps), = messages(self.recording, GPS, "QiiiHHHHBBiII")
         self.assertEqual((gps[8], gps[-2], gps[-1]), (6, 50, 20))
 
@@ -151,6 +152,10 @@ class ImportedStills(ImportTest):
         for fix in fixes:
             self.assertAlmostEqual(float(fix["latitude_deg"]), 46.8428, delta=0.2 * north_deg)
             self.assertAlmostEqual(float(fix["longitude_deg"]), -91.9936, delta=0.2 * east_deg)
+
+    def test_a_picture_that_is_named_twice_counts_once(self):
+        self.put({"a.jpg": dji_tags()})
+        self.assert_imported(self.import_stills(inputs=[self.pictures, self.pictures / "a.jpg"]), "1 pictures with")
 
     def test_detectors_look_at_the_pictures(self):
         (self.pictures / "a.jpg").write_bytes((SOURCE / "tests/data/detection/targets.jpg").read_bytes())
