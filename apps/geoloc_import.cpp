@@ -121,7 +121,8 @@ void write(Program& program, const FlightPlan& plan, const PictureLooks& looks) 
   program.recording->write(plan, looks);
   if (program.labels && !program.labels->marks.empty())
     program.recording->write_truth(true_targets(program.labels->marks));
-  if (program.detector) program.recording->write_class_names(program.detector->class_names());
+  const auto& class_names = program.labels ? program.labels->class_names : program.detector->class_names();
+  if (!class_names.empty()) program.recording->write_class_names(class_names);
   program.recording->finish();
 }
 

@@ -10,11 +10,12 @@ void add_stills_command(CLI::App& program, StillsOptions& options) {
   stills.add_option("--out", options.out, "The recording to write, a new folder")
       ->type_name("RECORDING")
       ->required();
-  CLI::Option* const labels = stills
-                                  .add_option("--labels", options.labels_file,
-                                              "In place of a detector: OpenDroneMap's gcp_list.txt, or CSV "
-                                              "picture,u,v[,width,height,class_id,confidence]")
-                                  ->type_name("FILE");
+  CLI::Option* const labels =
+      stills
+          .add_option("--labels", options.labels_file,
+                      "In place of a detector: OpenDroneMap's gcp_list.txt, CSV "
+                      "picture,u,v[,width,height,class_id,confidence], or what geoloc_detect --json wrote")
+          ->type_name("FILE");
   stills
       .add_option("--camera", options.camera_file,
                   "Calibration, YAML or camera.json; default: what the pictures tell of their lens")

@@ -167,7 +167,13 @@ class ImportedStills(ImportTest):
         self.assertGreater(len(detections), 3)
         self.assertEqual([detection["class_id"] for detection in frames(self.recording)[0]["detections"]],
                          [detection["class_id"] for detection in detections])
-        self.assertTrue((self.recording / "class_names.json").exists())
+        again = self.folder / "again"  # from what geoloc_detect wrote
+        result = run("geoloc_import", "stills", self.pictures, "--out", again, "--labels", self.write("a.jsonl", found.out))
+        self.assert_imported(result)
+        self.assertEqual([detection["class_id"] for detection in frames(again)[0]["detections"]],
+                         [detection["class_id"] for detection in detections])
+        for name in "telemetry.tlog", "class_names.json":
+            self.assertEqual((again / name).read_bytes(), (self.recording / name).read_bytes())
 
     @unittest.skipUnless((REAL / "helenenschacht").exists(), "the real survey is not here")
     def test_a_survey_from_its_pictures_is_as_good_as_from_its_telemetry(self):

@@ -6,10 +6,13 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "geoloc/io/json/detection_fields.hpp"
+#include "io/json/plain_values.hpp"
 #include "io/stills/survey_frame.hpp"
 #include "io/stills/tag_values.hpp"
 
@@ -147,6 +150,30 @@ class TableReader {
   Words columns_;
 };
 
+void take_class_name(const nlohmann::json& detection, int class_id, std::vector<std::string>& class_names) {
+  constexpr int kMostNames = 10000;
+  const auto name = detection.find("class_name");
+  if (name == detection.end() || !name->is_string() || class_id >= kMostNames) return;
+  const auto place = static_cast<std::size_t>(class_id);
+  if (class_names.size() <= place) class_names.resize(place + 1);
+  class_names[place] = name->get<std::string>();
+}
+
+/// A line that geoloc_detect wrote.
+void take_json_line(const std::string& line, Labels& labels) {
+  const nlohmann::json value = nlohmann::json::parse(line, nullptr, false);
+  if (!value.is_object()) refuse("not a JSON object");
+  if (value.contains("frame")) refuse("is of a video, not of a picture");
+  const nlohmann::json& image = member(value, "image");
+  const nlohmann::json& found = member(value, "detections");
+  if (!image.is_string() || !found.is_array()) refuse("image must be a name, and detections a list");
+  std::vector<Detection>& detections = labels.by_picture[label_key(image.get<std::string>())];
+  for (const nlohmann::json& detection : found) {
+    detections.push_back(detection_from_json(detection));
+    take_class_name(detection, detections.back().class_id, labels.class_names);
+  }
+}
+
 bool is_table(const std::string& first_line) {
   const Words columns = cells_of(first_line);
   return std::find(columns.begin(), columns.end(), "picture") != columns.end();
@@ -191,10 +218,13 @@ Labels parse_labels(const std::string& text, const std::string& name) {
     try {
       if (take) {
         take(line, labels);
+      } else if (line.front() == '{') {
+        take = &take_json_line;
+        take(line, labels);
       } else {
         take = reader_for(line);
       }
-    } catch (const std::runtime_error& error) {
+    } catch (const std::exception& error) {
       throw std::runtime_error(name + ":" + std::to_string(number) + ": " + error.what());
     }
   }

@@ -57,6 +57,7 @@ TEST(HostileStills, Packets) {
 TEST(HostileStills, Labels) {
   spoil_and_read(bytes_of("fuzz/seeds/labels/gcp_list.txt"), &hostile::read_any_labels);
   spoil_and_read(bytes_of("fuzz/seeds/labels/table.csv"), &hostile::read_any_labels);
+  spoil_and_read(bytes_of("fuzz/seeds/labels/detected.jsonl"), &hostile::read_any_labels);
 }
 
 }  // namespace

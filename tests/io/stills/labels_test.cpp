@@ -61,10 +61,27 @@ TEST(Labels, OfAPictureWithoutPixelsTellThatNothingWasSeen) {
   EXPECT_TRUE(labels.by_picture.at("a.jpg").empty());
 }
 
+TEST(Labels, MayBeWhatADetectorWrote) {
+  const Labels labels = parse_labels(
+      R"({"image": "set/1.jpg", "detections": [{"box": [1, 2, 3, 4], "class_id": 2, "class_name": "car", "sigma_px": 0.3}]})"
+      "\n"
+      R"({"image": "set/2.jpg", "detections": []})",
+      "labels");
+  const Detection& detection = labels.by_picture.at("1.jpg").at(0);
+  EXPECT_EQ(detection.box.width, 3.0);
+  EXPECT_EQ(detection.sigma_px, 0.3);
+  EXPECT_EQ(labels.class_names, (std::vector<std::string>{"", "", "car"}));
+  EXPECT_TRUE(labels.by_picture.at("2.jpg").empty());
+}
+
 TEST(Labels, ThatAreWrongAreRefusedByLineAndReason) {
   EXPECT_EQ(refusal_of("picture,u,v\na.jpg,1,2\na.jpg,x,2\n"), "labels:3: u is no number: `x`");
   EXPECT_EQ(refusal_of("picture,u\n"), "labels:1: there is no column `v`");
   EXPECT_EQ(refusal_of("EPSG:4326\n1 2 3\n"), "labels:2: x y z u v picture is expected");
+  EXPECT_EQ(refusal_of(R"({"image": "a.jpg", "detections": [{"box": [1, 2, 0, 4]}]})"),
+            "labels:1: box has no size");
+  EXPECT_EQ(refusal_of(R"({"image": "a.mp4", "frame": 0, "detections": []})"),
+            "labels:1: is of a video, not of a picture");
   EXPECT_EQ(refusal_of("EPSG:4326\n"), "labels: holds no label");
   EXPECT_EQ(refusal_of(""), "labels: holds no label");
   EXPECT_NE(refusal_of("http://127.0.0.1/wkt\n1 2 3 4 5 a.jpg\n").find("no coordinate system"),
