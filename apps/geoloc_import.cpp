@@ -110,10 +110,15 @@ FlightPlan plan_of(const Program& program, const StopSignal& stop) {
 }
 
 PictureLooks looks_of(const Program& program, const FlightPlan& plan, const StopSignal& stop) {
+  if (stop.is_requested()) return {};
   PictureLooks looks = program.labels
                            ? labelled_looks(plan.exposures, *program.labels, program.options.labels_file)
                            : detected_looks(plan.exposures, *program.detector, stop);
   tell_left_out(looks.left_out);
+  const bool is_blind = std::none_of(looks.by_exposure.begin(), looks.by_exposure.end(),
+                                     [](const auto& look) { return look.has_value(); });
+  if (is_blind && !stop.is_requested())
+    throw std::runtime_error("no picture could be looked at, so that nothing was written");
   return looks;
 }
 

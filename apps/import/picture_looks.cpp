@@ -26,6 +26,15 @@ std::vector<std::string> names_without_picture(const std::vector<Exposure>& expo
   return names;
 }
 
+/// A network that failed saw nothing, which must not count as that nothing was there.
+std::vector<Detection> look_at(const std::filesystem::path& file, io::Detector& detector) {
+  const std::uint64_t failed_before = detector.counts().failed_images;
+  std::vector<Detection> detections = detector.detect(io::read_picture(file));
+  if (detector.counts().failed_images > failed_before)
+    throw std::runtime_error(file.string() + ": the network failed on it");
+  return detections;
+}
+
 }  // namespace
 
 PictureLooks labelled_looks(const std::vector<Exposure>& exposures, const io::Labels& labels,
@@ -52,7 +61,7 @@ PictureLooks detected_looks(const std::vector<Exposure>& exposures, io::Detector
   for (const Exposure& exposure : exposures) {
     if (stop.is_requested()) break;
     try {
-      looks.by_exposure.emplace_back(detector.detect(io::read_picture(exposure.file)));
+      looks.by_exposure.emplace_back(look_at(exposure.file, detector));
     } catch (const std::exception& error) {
       looks.by_exposure.emplace_back(std::nullopt);
       looks.left_out.emplace_back(reason_of(error));

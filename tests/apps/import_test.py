@@ -403,6 +403,15 @@ class UselessStills(ImportTest):
         self.assert_refused(self.import_stills(), "a.jpg: tells no position", "nothing was written")
         self.assert_nothing_written()
 
+    def test_whose_pixels_cannot_be_read_are_not_taken_for_empty_ground(self):
+        self.put({"a.jpg": dji_tags()})
+        jpeg = (self.pictures / "a.jpg").read_bytes()
+        size = jpeg.rindex(struct.pack(">HH", HEIGHT, WIDTH))  # more pixels than any camera has
+        (self.pictures / "a.jpg").write_bytes(jpeg[:size] + struct.pack(">HH", 16000, 21333) + jpeg[size + 4:])
+        result = run("geoloc_import", "stills", self.pictures, "--out", self.recording)
+        self.assert_refused(result, "a.jpg", "no picture could be looked at")
+        self.assert_nothing_written()
+
     def test_of_a_month_are_no_flight(self):
         self.put({"a.jpg": dji_tags(), "b.jpg": dji_tags(DateTimeOriginal="2016:07:23 16:32:43")})
         self.assert_refused(self.import_stills(), "30.0 days", "import each flight by itself")
