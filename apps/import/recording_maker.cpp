@@ -13,12 +13,13 @@ namespace {
 constexpr int kRepetitions = 3;
 
 /// How pictures differ from a live run: each tells where it was taken itself. What is left of a latency is
-/// how old a receiver's position is, which survey cameras with RTK know.
+/// how old a receiver's position is, which survey cameras with RTK know. And they are few: what is seen in
+/// three or four must do (docs/import.md has what that costs).
 nlohmann::ordered_json settings_for(const FlightPlan& plan) {
-  constexpr double kReceiverLagSigma_s = 0.1, kCourseSigma_deg = 10.0;
+  constexpr double kReceiverLagSigma_s = 0.1, kCourseSigma_deg = 10.0, kConfirm = 0.99;
   nlohmann::ordered_json prior{{"sigma_latency_s", plan.is_synchronised ? 0.0 : kReceiverLagSigma_s}};
   if (plan.is_heading_assumed) prior["sigma_boresight_z_deg"] = kCourseSigma_deg;  // wind
-  nlohmann::ordered_json joint{{"prior", std::move(prior)}};
+  nlohmann::ordered_json joint{{"confirm_probability", kConfirm}, {"prior", std::move(prior)}};
   if (plan.sigma_attitude_deg > 0.0) joint["sigma_attitude_deg"] = plan.sigma_attitude_deg;
   return {{"joint", std::move(joint)}};
 }
