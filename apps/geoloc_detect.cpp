@@ -3,16 +3,12 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
-#include <optional>
 
 #include "app/live_config.hpp"
 #include "common/command_line.hpp"
 #include "common/detector_options.hpp"
 #include "common/ignored_settings.hpp"
 #include "detect/detect_run.hpp"
-#include "geoloc/geometry/problems.hpp"
-#include "io/detection/detection_fields.hpp"
-#include "settings/field_checker.hpp"
 
 namespace {
 
@@ -23,9 +19,7 @@ struct Options {
   std::vector<std::string> inputs;
   DetectorOptions detector;
   std::string config_file;
-  std::optional<double> confidence;
-  std::vector<int> tiles;
-  std::vector<int> input_size_px;
+  DetectorTuning tuning;
   ResultWriter::Places places;
 };
 
@@ -34,38 +28,11 @@ void add_options(CLI::App& program, Options& options) {
   add_detector_options(program, options.detector);
   program.add_option("--config", options.config_file, "Settings, JSON: \"detection\" of those of geoloc_app")
       ->type_name("FILE");
-  program.add_option("--confidence", options.confidence,
-                     "Leave out boxes with a lower score; default: detection.confidence");
-  program
-      .add_option("--tiles", options.tiles,
-                  "Look at so many by so many tiles of each picture as well; default: detection.tile_columns "
-                  "and tile_rows")
-      ->type_name("COLUMNS ROWS")
-      ->expected(2);
-  program
-      .add_option("--input-size", options.input_size_px,
-                  "Of the network's input, px, for models that leave it open; default: the model's own")
-      ->type_name("WIDTH HEIGHT")
-      ->expected(2);
+  add_detector_tuning(program, options.tuning);
   program.add_option("--json", options.places.json, "Write a line of JSON for each picture; - is stdout")
       ->type_name("FILE");
   program.add_option("--draw", options.places.draw, "Write each picture and video with its boxes here")
       ->type_name("DIR");
-}
-
-io::DetectionConfig detection_of(const Options& options, const io::DetectionConfig& configured) {
-  io::DetectionConfig config = with_backend(options.detector, configured);
-  if (options.confidence) config.confidence = *options.confidence;
-  if (!options.tiles.empty()) {
-    config.tile_columns = options.tiles[0];
-    config.tile_rows = options.tiles[1];
-  }
-  if (!options.input_size_px.empty()) {
-    config.input_width_px = options.input_size_px[0];
-    config.input_height_px = options.input_size_px[1];
-  }
-  throw_if_any(check_fields(config, "detection"));
-  return config;
 }
 
 void tell_ignored(const nlohmann::json& document, const std::string& name) {
@@ -89,7 +56,7 @@ struct Program {
       refuse_problems(options.config_file, problems);
       tell_ignored(document, options.config_file);
     }
-    config.detection = detection_of(options, config.detection);
+    config.detection = detection_of(options.detector, options.tuning, config.detection);
     detector = io::open_detector(detector_files(options.detector), config.detection);
     results = std::make_unique<ResultWriter>(
         options.places, inputs, joined({files_of_config(options.config_file), files_of(options.detector)}),

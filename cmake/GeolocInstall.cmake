@@ -36,7 +36,7 @@ cmake_path(APPEND _pc_includedir "${CMAKE_INSTALL_INCLUDEDIR}")
 configure_file("${PROJECT_SOURCE_DIR}/cmake/geoloc.pc.in" "${PROJECT_BINARY_DIR}/geoloc.pc" @ONLY)
 install(FILES "${PROJECT_BINARY_DIR}/geoloc.pc" DESTINATION "${_pkg_config}")
 
-foreach(_program IN ITEMS geoloc_app geoloc_detect geoloc_eval geoloc_replay geoloc_sim)
+foreach(_program IN ITEMS geoloc_app geoloc_detect geoloc_eval geoloc_import geoloc_replay geoloc_sim)
   if(TARGET ${_program})
     install(TARGETS ${_program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   endif()

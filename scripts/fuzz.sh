@@ -19,6 +19,7 @@ fuzz() {
   local name=$1 corpus=build/fuzz/corpus/$1 log=build/fuzz/$1.log seeds=()
   case $name in
     mavlink | tlog) seeds=(tests/data/mavlink) ;;
+    stills) seeds=(tests/data/stills) ;;
     picture) seeds=(tests/data/detection) ;;
     onnx_metadata) seeds=(tests/data/onnx) ;;
     *) [ ! -d "tests/fuzz/seeds/$name" ] || seeds=("tests/fuzz/seeds/$name") ;;

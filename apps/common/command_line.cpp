@@ -35,13 +35,16 @@ std::vector<std::string> names_of_options(const CLI::App& program) {
     if (option->get_group().empty()) continue;  // hidden
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   }
+  for (const CLI::App* command : program.get_subcommands()) {  // those of the command line
+    for (std::string& name : names_of_options(*command)) names.push_back(std::move(name));
+  }
   return names;
 }
 
 /// What is left over of a command line, each with what it may be meant for.
 std::string unknown_arguments(const CLI::App& program) {
   std::string lines;
-  for (const std::string& argument : program.remaining()) {
+  for (const std::string& argument : program.remaining(true)) {
     const bool is_option = argument.rfind('-', 0) == 0;
     const std::string name = argument.substr(0, argument.find('='));
     const std::string meant = is_option ? nearest_name(name, names_of_options(program)) : "";

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include "common/data_files.hpp"
+#include "geoloc/geometry/problems.hpp"
+#include "io/detection/detection_fields.hpp"
+#include "settings/field_checker.hpp"
 
 namespace geoloc::apps {
 
@@ -26,6 +29,38 @@ void add_detector_options(CLI::App& program, DetectorOptions& options) {
       .add_option("--backend", options.backend, "What runs the model; default: opencv, or detection.backend")
       ->type_name("NAME")
       ->check(CLI::IsMember({"opencv", "openvino"}));
+}
+
+void add_detector_tuning(CLI::App& program, DetectorTuning& tuning) {
+  program.add_option("--confidence", tuning.confidence,
+                     "Leave out boxes with a lower score; default: detection.confidence");
+  program
+      .add_option("--tiles", tuning.tiles,
+                  "Look at so many by so many tiles of each picture as well; default: detection.tile_columns "
+                  "and tile_rows")
+      ->type_name("COLUMNS ROWS")
+      ->expected(2);
+  program
+      .add_option("--input-size", tuning.input_size_px,
+                  "Of the network's input, px, for models that leave it open; default: the model's own")
+      ->type_name("WIDTH HEIGHT")
+      ->expected(2);
+}
+
+io::DetectionConfig detection_of(const DetectorOptions& options, const DetectorTuning& tuning,
+                                 const io::DetectionConfig& configured) {
+  io::DetectionConfig config = with_backend(options, configured);
+  if (tuning.confidence) config.confidence = *tuning.confidence;
+  if (!tuning.tiles.empty()) {
+    config.tile_columns = tuning.tiles[0];
+    config.tile_rows = tuning.tiles[1];
+  }
+  if (!tuning.input_size_px.empty()) {
+    config.input_width_px = tuning.input_size_px[0];
+    config.input_height_px = tuning.input_size_px[1];
+  }
+  throw_if_any(check_fields(config, "detection"));
+  return config;
 }
 
 io::DetectorFiles detector_files(const DetectorOptions& options) {

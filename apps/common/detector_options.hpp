@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "common/output_files.hpp"
 #include "geoloc/io/detection/detector.hpp"
@@ -21,6 +23,21 @@ struct DetectorOptions {
 
 /// --model, --class-names, --second-look, --backend.
 void add_detector_options(CLI::App& program, DetectorOptions& options);
+
+/// How that network is used; empty where the command line does not say.
+struct DetectorTuning {
+  std::optional<double> confidence;
+  std::vector<int> tiles;          ///< columns, rows
+  std::vector<int> input_size_px;  ///< width, height
+};
+
+/// --confidence, --tiles, --input-size.
+void add_detector_tuning(CLI::App& program, DetectorTuning& tuning);
+
+/// What the command line says over what the configuration says. Throws std::invalid_argument naming every
+/// problem.
+io::DetectionConfig detection_of(const DetectorOptions& options, const DetectorTuning& tuning,
+                                 const io::DetectionConfig& configured);
 
 /// The model named, or the one that comes with geoloc. Throws std::runtime_error where that is not found.
 io::DetectorFiles detector_files(const DetectorOptions& options);

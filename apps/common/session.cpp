@@ -85,6 +85,7 @@ bool Session::process(const PendingFrame& frame) {
   frame_.captured_at = *vehicle_time;
   frame_.captured_at_host = frame.captured_at;
   frame_.time_sigma_s = time_sigma_s(frame, link_.clock());
+  frame_.mount = frame.mount;
   frame_.detections = frame.detections;
   frame_looks_.expect(geolocator_);
   const std::uint64_t number = frames();

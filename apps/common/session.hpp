@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "common/estimation_config.hpp"
@@ -20,7 +21,8 @@ namespace geoloc::apps {
 struct PendingFrame {
   HostTime captured_at;
   std::vector<Detection> detections;
-  double time_sigma_s = 0.0;  ///< 1-sigma of captured_at; 0: not stated
+  double time_sigma_s = 0.0;                        ///< 1-sigma of captured_at; 0: not stated
+  std::optional<CameraMount> mount = std::nullopt;  ///< of a camera that moves; nullopt: as configured
 };
 
 /// Telemetry bytes and detections in, objects out: what a live run and a replay share. It reads no clock and

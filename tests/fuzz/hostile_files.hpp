@@ -43,6 +43,7 @@ inline void read_any_frames(const std::string& text, BadLines bad_lines) {
     require(frame.captured_at >= previous);
     previous = frame.captured_at;
     for (const Detection& detection : frame.detections) require(is_usable(detection));
+    if (frame.mount) require(CameraConfig{{}, *frame.mount}.problems().empty());
   }
 }
 

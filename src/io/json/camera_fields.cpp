@@ -42,6 +42,16 @@ nlohmann::ordered_json camera_to_json(const CameraConfig& camera) {
   return fields_to_json(camera);
 }
 
+nlohmann::ordered_json mount_to_json(const CameraMount& mount) {
+  return fields_to_json(mount);
+}
+
+void mount_from_json(const nlohmann::json& object, const std::string& path, CameraMount& mount,
+                     std::vector<std::string>& problems) {
+  FieldReader reader(object, path, problems);
+  visit_fields(reader, mount);
+}
+
 void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict,
                       CameraConfig& camera, std::vector<std::string>& problems) {
   nlohmann::json numbers = object;

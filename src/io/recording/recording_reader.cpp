@@ -8,10 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/json/detection_fields.hpp"
 #include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/object_pictures.hpp"
 #include "geoloc/io/recording/recording_files.hpp"
+#include "io/json/plain_values.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -19,61 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Far beyond any real frame; keeps sums of coordinates finite and exact enough.
-constexpr double kLargestPixel = 1e6;
 constexpr std::size_t kMostNamed = 10;                           // bad lines
 constexpr std::int64_t kLatestStamp_us = 7'258'118'400'000'000;  // year 2200
-
-double finite_number(const json& value, const char* what) {
-  if (!value.is_number() || !std::isfinite(value.get<double>())) {
-    throw std::invalid_argument(std::string(what) + " must be a finite number");
-  }
-  return value.get<double>();
-}
-
-int whole_number(const json& value, const char* what, double below) {
-  const double number = finite_number(value, what);
-  if (!(number >= 0.0 && number < below && number == std::floor(number))) {
-    throw std::invalid_argument(std::string(what) + " must be a whole number from 0");
-  }
-  return static_cast<int>(number);
-}
-
-const json& member(const json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end()) throw std::invalid_argument(std::string(key) + " is missing");
-  return *found;
-}
-
-Box parse_box(const json& value) {
-  if (!value.is_array() || value.size() != 4)
-    throw std::invalid_argument("box must be [x, y, width, height]");
-  Box box{finite_number(value[0], "box[0]"), finite_number(value[1], "box[1]"),
-          finite_number(value[2], "box[2]"), finite_number(value[3], "box[3]")};
-  if (!(box.width > 0.0 && box.height > 0.0)) throw std::invalid_argument("box has no size");
-  for (const double edge : {box.x, box.y, box.width, box.height}) {
-    if (std::abs(edge) > kLargestPixel) throw std::invalid_argument("box lies beyond any image");
-  }
-  return box;
-}
-
-Detection parse_detection(const json& value) {
-  if (!value.is_object()) throw std::invalid_argument("a detection must be an object");
-  Detection detection;
-  detection.box = parse_box(member(value, "box"));
-  detection.confidence =
-      value.contains("confidence") ? finite_number(value["confidence"], "confidence") : 1.0;
-  if (!(detection.confidence >= 0.0 && detection.confidence <= 1.0)) {
-    throw std::invalid_argument("confidence must lie in [0, 1]");
-  }
-  if (value.contains("class_id")) detection.class_id = whole_number(value["class_id"], "class_id", 1e6);
-  if (value.contains("sigma_px")) {
-    detection.sigma_px = finite_number(value["sigma_px"], "sigma_px");
-    if (!is_sigma_px(detection.sigma_px))
-      throw std::invalid_argument("sigma_px must lie in [0.001, 1000]; leave it out where it is not known");
-  }
-  return detection;
-}
 
 double parse_time_sigma_s(const json& value) {
   const double sigma_s = finite_number(value, "time_sigma_s");
@@ -85,6 +35,15 @@ double parse_time_sigma_s(const json& value) {
 std::string parse_time_quality(const json& value) {
   if (!value.is_string()) throw std::invalid_argument("time_quality must be a word");
   return value.get<std::string>();
+}
+
+CameraMount parse_mount(const json& value) {
+  CameraMount mount;
+  std::vector<std::string> problems;
+  mount_from_json(value, "mount", mount, problems);
+  if (problems.empty()) problems = CameraConfig{{}, mount}.problems();
+  if (!problems.empty()) throw std::invalid_argument(problems.front());
+  return mount;
 }
 
 RecordedFrame parse_frame(const std::string& line) {
@@ -99,9 +58,10 @@ RecordedFrame parse_frame(const std::string& line) {
   frame.captured_at = HostTime{std::chrono::microseconds{time.get<std::int64_t>()}};
   if (value.contains("time_sigma_s")) frame.time_sigma_s = parse_time_sigma_s(value["time_sigma_s"]);
   if (value.contains("time_quality")) frame.time_quality = parse_time_quality(value["time_quality"]);
+  if (value.contains("mount")) frame.mount = parse_mount(value["mount"]);
   const json& detections = member(value, "detections");
   if (!detections.is_array()) throw std::invalid_argument("detections must be a list");
-  for (const json& detection : detections) frame.detections.push_back(parse_detection(detection));
+  for (const json& detection : detections) frame.detections.push_back(detection_from_json(detection));
   if (const auto records = value.find("telemetry_records"); records != value.end()) {
     if (!records->is_number_unsigned())
       throw std::invalid_argument("telemetry_records must be a whole number from 0");

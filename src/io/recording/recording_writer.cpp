@@ -67,6 +67,7 @@ nlohmann::ordered_json to_json(const RecordedFrame& frame) {
   nlohmann::ordered_json line{{"time_us", microseconds(frame.captured_at)}};
   if (frame.time_sigma_s > 0.0) line["time_sigma_s"] = frame.time_sigma_s;
   if (!frame.time_quality.empty()) line["time_quality"] = frame.time_quality;
+  if (frame.mount) line["mount"] = mount_to_json(*frame.mount);
   line["detections"] = std::move(detections);
   if (frame.telemetry_records) line["telemetry_records"] = *frame.telemetry_records;
   return line;

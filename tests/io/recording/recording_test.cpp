@@ -23,7 +23,8 @@ RecordedFrame some_frame(std::int64_t time_us) {
           {{{1.25, 2.1, 30.7, 1.0 / 3.0}, 0.87654321, 4, 0.37}, {{5, 6, 7, 8}, 0.5, 1}},
           1,
           0.3,
-          "arrival"};
+          "arrival",
+          CameraMount{1.0 / 3.0, -45.5, 170.25, 0.1, 0.0, -0.2}};
 }
 
 void write_recording(const std::filesystem::path& folder) {
@@ -60,6 +61,11 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   EXPECT_FALSE(recording.frames[1].telemetry_records);
   EXPECT_EQ(recording.frames[0].time_sigma_s, 0.3);
   EXPECT_EQ(recording.frames[0].time_quality, "arrival");
+  ASSERT_TRUE(recording.frames[0].mount);
+  EXPECT_EQ(recording.frames[0].mount->roll_deg, 1.0 / 3.0);
+  EXPECT_EQ(recording.frames[0].mount->yaw_deg, 170.25);
+  EXPECT_EQ(recording.frames[0].mount->z_m, -0.2);
+  EXPECT_FALSE(recording.frames[1].mount);  // as in camera.json
   EXPECT_EQ(recording.frames[1].time_sigma_s, 0.0);
   EXPECT_EQ(recording.frames[1].time_quality, "");
   ASSERT_EQ(recording.telemetry.records().size(), 1U);
@@ -220,6 +226,9 @@ INSTANTIATE_TEST_SUITE_P(
                       R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "confidence": 2}]})",
                       R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "class_id": 0.5}]})",
                       R"({"time_us": 6, "detections": [{"box": [1, 2, 3, 4], "class_id": 1e12}]})",
+                      R"({"time_us": 6, "detections": [], "mount": 3})",
+                      R"({"time_us": 6, "detections": [], "mount": {"pitch_deg": "down"}})",
+                      R"({"time_us": 6, "detections": [], "mount": {"pitch_deg": 1e9}})",
                       R"({"time_us": 6, "detections": [], "telemetry_records": -3})"));
 
 TEST(Frames, WhatAPowerCutLeavesAtTheEndIsSkippedAndCounted) {

@@ -17,4 +17,9 @@ nlohmann::ordered_json camera_to_json(const CameraConfig& camera);
 void camera_from_json(const nlohmann::json& object, const std::string& path, bool strict,
                       CameraConfig& camera, std::vector<std::string>& problems);
 
+/// The mount alone, as under "mount" there.
+nlohmann::ordered_json mount_to_json(const CameraMount& mount);
+void mount_from_json(const nlohmann::json& object, const std::string& path, CameraMount& mount,
+                     std::vector<std::string>& problems);
+
 }  // namespace geoloc::io

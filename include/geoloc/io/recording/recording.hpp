@@ -25,6 +25,7 @@ struct RecordedFrame {
   std::optional<std::uint64_t> telemetry_records;
   double time_sigma_s = 0.0;      ///< 1-sigma of captured_at; 0: not stated
   std::string time_quality = {};  ///< how captured_at was obtained (docs/video.md); empty: not stated
+  std::optional<CameraMount> mount = std::nullopt;  ///< of a camera that moves; nullopt: camera.json's
 };
 
 /// As GeoJSON has them.

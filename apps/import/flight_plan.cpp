@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/flight_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "geoloc/geometry/angles.hpp"
+#include "import/exposure_heights.hpp"
+#include "import/exposure_times.hpp"
+#include "import/flight_notes.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Of one day's flights; telemetry's clock would hold 49 days.
+constexpr Duration kLongestSpan = 24h;
+/// Between pictures farther apart, a vehicle may have gone anywhere.
+constexpr double kLongestLeg_s = 20.0;
+
+template <typename IsUsable>
+void leave_out_unless(std::vector<NamedStill>& stills, const char* reason, std::vector<std::string>& left_out,
+                      const IsUsable& is_usable) {
+  const auto usable_end = std::stable_partition(stills.begin(), stills.end(), is_usable);
+  for (auto it = usable_end; it != stills.end(); ++it) left_out.push_back(it->file.string() + ": " + reason);
+  stills.erase(usable_end, stills.end());
+}
+
+/// One camera has one size and one focal length; a zoom is another camera.
+using CameraKey = std::tuple<int, int, long>;
+
+CameraKey key_of(const io::Still& still) {
+  return {still.width_px, still.height_px, std::lround(still.lens->intrinsics.fx_px)};
+}
+
+/// The camera of most of the pictures.
+CameraKey most_common_camera(const std::vector<NamedStill>& stills) {
+  std::map<CameraKey, std::size_t> counts;
+  for (const NamedStill& named : stills) ++counts[key_of(named.still)];
+  return std::max_element(counts.begin(), counts.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+void keep_one_camera(std::vector<NamedStill>& stills, const FlightFacts& facts, FlightPlan& plan) {
+  if (facts.lens) {
+    for (NamedStill& named : stills) named.still.lens = facts.lens;
+    leave_out_unless(stills, "has another size than the camera of --camera", plan.left_out,
+                     [&](const NamedStill& named) {
+                       return named.still.width_px == facts.lens->intrinsics.width_px &&
+                              named.still.height_px == facts.lens->intrinsics.height_px;
+                     });
+  }
+  leave_out_unless(stills, "tells no focal length, which --camera may give", plan.left_out,
+                   [](const NamedStill& named) { return named.still.lens.has_value(); });
+  if (stills.empty()) return;
+  const CameraKey camera = most_common_camera(stills);
+  leave_out_unless(stills, "has another size or focal length than most; import these by themselves",
+                   plan.left_out, [&](const NamedStill& named) { return key_of(named.still) == camera; });
+  const io::Lens& lens = *stills.front().still.lens;
+  plan.camera = lens.intrinsics;
+  if (lens.source == io::FocalSource::k35mm)
+    plan.assumptions.push_back(fmt::format(
+        "the focal length is the pictures' equivalent for film of 35 mm, {:.0f} px to some 3 %: heights, and "
+        "positions away from the image's middle, are as uncertain (--camera gives a calibration)",
+        lens.intrinsics.fx_px));
+}
+
+/// From one picture to another, in east, north, up [m].
+Eigen::Vector3d way(const Exposure& from, const Exposure& to) {
+  constexpr double kMetresPerDegree = 111'319.5;
+  const Geodetic& a = from.position.position;
+  const Geodetic& b = to.position.position;
+  const double east_deg = std::remainder(b.longitude_deg - a.longitude_deg, 360.0);
+  return {east_deg * std::cos(a.latitude_deg * kRadPerDeg) * kMetresPerDegree,
+          (b.latitude_deg - a.latitude_deg) * kMetresPerDegree,
+          to.position.height_above_home_m - from.position.height_above_home_m};
+}
+
+bool is_leg(const Exposure& from, const Exposure& to) {
+  return seconds(to.at - from.at) <= kLongestLeg_s;
+}
+
+/// By the pictures before and after, as far as they are of the same leg.
+void take_velocities(std::vector<Exposure>& exposures) {
+  for (std::size_t i = 0; i < exposures.size(); ++i) {
+    const bool has_before = i > 0 && is_leg(exposures[i - 1], exposures[i]);
+    const bool has_after = i + 1 < exposures.size() && is_leg(exposures[i], exposures[i + 1]);
+    const Exposure& from = exposures[i - (has_before ? 1 : 0)];
+    const Exposure& to = exposures[i + (has_after ? 1 : 0)];
+    if (has_before || has_after)
+      exposures[i].position.velocity_in_enu = way(from, to) / seconds(to.at - from.at);
+  }
+}
+
+/// A camera below a vehicle that flies ahead has its top towards where it flies.
+void take_courses(std::vector<Exposure>& exposures, const std::vector<TimedStill>& stills) {
+  for (std::size_t i = 0; i < exposures.size(); ++i) {
+    const auto& velocity = exposures[i].position.velocity_in_enu;
+    if (stills[i].named.still.attitude.source == io::AttitudeSource::kNone && velocity)
+      exposures[i].attitude.angles.yaw_rad = std::atan2(velocity->x(), velocity->y());
+  }
+}
+
+Exposure exposure_of(const TimedStill& timed, HostTime begin) {
+  const io::Still& still = timed.named.still;
+  Exposure exposure;
+  exposure.file = timed.named.file;
+  exposure.at = timed.at;
+  const VehicleTime since_boot{timed.at - begin + Duration{1s}};
+  exposure.position.time = since_boot;
+  exposure.position.position = still.position;
+  exposure.attitude = {since_boot, still.attitude.vehicle};
+  if (tells_camera(still.attitude)) exposure.mount = still.attitude.mount;
+  if (still.sigma_horizontal_m) {
+    constexpr std::uint8_t kFix3d = 3, kRtkFloat = 5, kRtkFixed = 6;
+    const int flag = still.rtk_flag.value_or(0);
+    exposure.gnss = io::GnssClaim{flag == 50   ? kRtkFixed
+                                  : flag == 34 ? kRtkFloat
+                                               : kFix3d,
+                                  still.sigma_horizontal_m, still.sigma_height_m};
+  }
+  return exposure;
+}
+
+void refuse_long_span(const std::vector<TimedStill>& stills) {
+  const Duration span = stills.back().at - stills.front().at;
+  if (span <= kLongestSpan) return;
+  throw std::runtime_error(
+      fmt::format("the pictures were taken over {:.1f} days ({} to {}): import each flight by itself",
+                  seconds(span) / 86400.0, stills.front().named.file.filename().string(),
+                  stills.back().named.file.filename().string()));
+}
+
+}  // namespace
+
+FlightPlan plan_flight(std::vector<NamedStill> stills, const FlightFacts& facts) {
+  FlightPlan plan;
+  leave_out_unless(stills, "tells no time", plan.left_out,
+                   [](const NamedStill& named) { return named.still.taken.has_value(); });
+  keep_one_camera(stills, facts, plan);
+  if (stills.empty()) return plan;
+  const std::vector<TimedStill> timed =
+      in_order_of_time(std::move(stills), facts.utc_offset_h, plan.assumptions);
+  refuse_long_span(timed);
+  const FlightHeights heights =
+      heights_of(timed, {facts.take_off_height_m, facts.marks_height_m}, plan.assumptions);
+  plan.take_off_height_m = heights.take_off_absolute_m;
+  note_heights(timed, plan);
+  note_rtk(timed, plan);
+  assume_attitudes(timed, facts.camera_pitch_deg, plan);
+  for (std::size_t i = 0; i < timed.size(); ++i) {
+    Exposure exposure = exposure_of(timed[i], timed.front().at);
+    exposure.position.height_above_home_m = heights.above_take_off_m[i];
+    exposure.position.height_msl_m = heights.above_take_off_m[i] + heights.take_off_msl_m.value_or(0.0);
+    plan.exposures.push_back(std::move(exposure));
+  }
+  take_velocities(plan.exposures);
+  take_courses(plan.exposures, timed);
+  return plan;
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "geoloc/io/mavlink/commands.hpp"
+#include "geoloc/state/samples.hpp"
+
+namespace geoloc::io {
+
+/// What a receiver claims of its position; GPS_FIX_TYPE as MAVLink numbers it.
+struct GnssClaim {
+  std::uint8_t fix_type = 3;
+  std::optional<double> sigma_horizontal_m;
+  std::optional<double> sigma_height_m;
+};
+
+/// Writes the messages in which an autopilot tells its state, for recordings that are made of other sources.
+/// Each call uses one sequence number. Times are rounded to the milliseconds that the messages have.
+class StateWriter {
+ public:
+  OutgoingFrame heartbeat();
+
+  /// ATTITUDE; rates that the sample does not tell are NaN.
+  OutgoingFrame attitude(const AttitudeSample& sample);
+
+  /// GLOBAL_POSITION_INT. A height above sea level that the sample does not tell is that above home, and a
+  /// velocity is zero.
+  OutgoingFrame position(const PositionSample& sample);
+
+  /// GPS_RAW_INT of the same place.
+  OutgoingFrame gnss(const PositionSample& sample, const GnssClaim& claim);
+
+ private:
+  std::uint8_t sequence_ = 0;
+};
+
+}  // namespace geoloc::io

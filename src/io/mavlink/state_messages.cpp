@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geoloc/io/mavlink/state_messages.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "pack.hpp"
+
+namespace geoloc::io {
+namespace {
+
+constexpr MavAddress kVehicle{1, MAV_COMP_ID_AUTOPILOT1};
+
+std::uint32_t milliseconds(VehicleTime time) {
+  return static_cast<std::uint32_t>(
+      std::chrono::round<std::chrono::milliseconds>(time.time_since_epoch()).count());
+}
+
+/// In the message's integer, at its ends where it is beyond them.
+template <typename Integer>
+Integer scaled(double value, double scale) {
+  constexpr double kLeast = std::numeric_limits<Integer>::min(), kMost = std::numeric_limits<Integer>::max();
+  return static_cast<Integer>(std::llround(std::clamp(value * scale, kLeast, kMost)));
+}
+
+std::uint32_t millimetres(const std::optional<double>& sigma_m) {
+  return sigma_m ? std::max<std::uint32_t>(1, scaled<std::uint32_t>(*sigma_m, 1e3)) : 0;
+}
+
+}  // namespace
+
+OutgoingFrame StateWriter::heartbeat() {
+  mavlink_heartbeat_t fields{};
+  fields.type = MAV_TYPE_QUADROTOR;
+  fields.autopilot = MAV_AUTOPILOT_GENERIC;
+  fields.system_status = MAV_STATE_ACTIVE;
+  fields.mavlink_version = 3;
+  return pack(kVehicle, sequence_++, true, mavlink_msg_heartbeat_encode_status, fields);
+}
+
+OutgoingFrame StateWriter::attitude(const AttitudeSample& sample) {
+  constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
+  const Eigen::Vector3d rates = sample.rates_in_body_radps.value_or(Eigen::Vector3d::Constant(kNotTold));
+  mavlink_attitude_t fields{};
+  fields.time_boot_ms = milliseconds(sample.time);
+  fields.roll = static_cast<float>(sample.angles.roll_rad);
+  fields.pitch = static_cast<float>(sample.angles.pitch_rad);
+  fields.yaw = static_cast<float>(sample.angles.yaw_rad);
+  fields.rollspeed = static_cast<float>(rates.x());
+  fields.pitchspeed = static_cast<float>(rates.y());
+  fields.yawspeed = static_cast<float>(rates.z());
+  return pack(kVehicle, sequence_++, true, mavlink_msg_attitude_encode_status, fields);
+}
+
+OutgoingFrame StateWriter::position(const PositionSample& sample) {
+  const Eigen::Vector3d velocity = sample.velocity_in_enu.value_or(Eigen::Vector3d::Zero());
+  mavlink_global_position_int_t fields{};
+  fields.time_boot_ms = milliseconds(sample.time);
+  fields.lat = scaled<std::int32_t>(sample.position.latitude_deg, 1e7);
+  fields.lon = scaled<std::int32_t>(sample.position.longitude_deg, 1e7);
+  fields.alt = scaled<std::int32_t>(sample.height_msl_m.value_or(sample.height_above_home_m), 1e3);
+  fields.relative_alt = scaled<std::int32_t>(sample.height_above_home_m, 1e3);
+  fields.vx = scaled<std::int16_t>(velocity.y(), 1e2);
+  fields.vy = scaled<std::int16_t>(velocity.x(), 1e2);
+  fields.vz = scaled<std::int16_t>(-velocity.z(), 1e2);
+  fields.hdg = std::numeric_limits<std::uint16_t>::max();  // not told
+  return pack(kVehicle, sequence_++, true, mavlink_msg_global_position_int_encode_status, fields);
+}
+
+OutgoingFrame StateWriter::gnss(const PositionSample& sample, const GnssClaim& claim) {
+  constexpr auto kNotTold = std::numeric_limits<std::uint16_t>::max();
+  mavlink_gps_raw_int_t fields{};
+  fields.time_usec = std::uint64_t{milliseconds(sample.time)} * 1000;
+  fields.fix_type = claim.fix_type;
+  fields.lat = scaled<std::int32_t>(sample.position.latitude_deg, 1e7);
+  fields.lon = scaled<std::int32_t>(sample.position.longitude_deg, 1e7);
+  fields.alt = scaled<std::int32_t>(sample.height_msl_m.value_or(sample.height_above_home_m), 1e3);
+  fields.eph = fields.epv = fields.vel = fields.cog = kNotTold;
+  fields.satellites_visible = std::numeric_limits<std::uint8_t>::max();  // not told
+  fields.h_acc = millimetres(claim.sigma_horizontal_m);
+  fields.v_acc = millimetres(claim.sigma_height_m);
+  return pack(kVehicle, sequence_++, true, mavlink_msg_gps_raw_int_encode_status, fields);
+}
+
+}  // namespace geoloc::io

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/hostile_stills.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+namespace geoloc::io {
+namespace {
+
+using Reader = void (*)(const std::string&);
+
+std::string bytes_of(const std::string& name) {
+  std::ifstream file(std::filesystem::path(GEOLOC_SOURCE_DIR) / "tests" / name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// Overwrites, removes and repeats pieces.
+std::string spoilt(std::string bytes, std::mt19937& random) {
+  for (int left = 1 + static_cast<int>(random() % 6); left > 0 && !bytes.empty(); --left) {
+    const std::size_t at = random() % bytes.size();
+    const std::size_t length = 1 + random() % 40;
+    switch (random() % 3) {
+      case 0:
+        bytes[at] = static_cast<char>(random());
+        break;
+      case 1:
+        bytes.erase(at, length);
+        break;
+      default:
+        bytes.insert(random() % bytes.size(), bytes.substr(at, length));
+    }
+  }
+  return bytes;
+}
+
+void spoil_and_read(const std::string& good, Reader read) {
+  ASSERT_FALSE(good.empty());
+  std::mt19937 random(1);
+  read("");
+  read(good);
+  for (int i = 0; i < 2000; ++i) read(spoilt(good, random));
+  for (std::size_t size = 0; size < good.size(); size += 1 + good.size() / 200) read(good.substr(0, size));
+}
+
+TEST(HostileStills, Pictures) {
+  spoil_and_read(bytes_of("data/stills/dji.jpg"), &hostile::read_any_still);
+}
+
+TEST(HostileStills, Packets) {
+  spoil_and_read(bytes_of("fuzz/seeds/xmp/dji.xml"), &hostile::read_any_xmp);
+}
+
+TEST(HostileStills, Labels) {
+  spoil_and_read(bytes_of("fuzz/seeds/labels/gcp_list.txt"), &hostile::read_any_labels);
+  spoil_and_read(bytes_of("fuzz/seeds/labels/table.csv"), &hostile::read_any_labels);
+  spoil_and_read(bytes_of("fuzz/seeds/labels/detected.jsonl"), &hostile::read_any_labels);
+}
+
+}  // namespace
+}  // namespace geoloc::io
