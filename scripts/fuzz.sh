@@ -8,7 +8,7 @@ cd "$ROOT"
 export SECONDS_EACH=${1:-60}
 mkdir -p build
 source scripts/packages.sh
-install_packages "${BUILD_PACKAGES[@]}" "${LINT_PACKAGES[@]}"
+install_packages "${BUILD_PACKAGES[@]}" "${GDAL_PACKAGES[@]}" "${LINT_PACKAGES[@]}"
 say "Configuring (fuzz)"
 cmake --preset fuzz >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
 say "Building (fuzz)"

@@ -6,10 +6,11 @@ LIBRARY_PACKAGES=(g++ cmake ninja-build libeigen3-dev libgeographiclib-dev libgt
 BUILD_PACKAGES=(
   g++ make cmake ninja-build ccache pkg-config python3 python3-venv
   libeigen3-dev libgeographiclib-dev
-  nlohmann-json3-dev libcli11-dev libboost-dev libfmt-dev libqrencode-dev libssl-dev libyaml-cpp-dev zlib1g-dev libgdal-dev
+  nlohmann-json3-dev libcli11-dev libboost-dev libfmt-dev libqrencode-dev libssl-dev libyaml-cpp-dev zlib1g-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-dnn-dev
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstrtspserver-1.0-dev
 )
+GDAL_PACKAGES=(libgdal-dev)  # for --ground FILE and geoloc_import; the demo does without its 68 packages
 RUN_PACKAGES=(
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-plugins-ugly
   gstreamer1.0-libav

@@ -23,7 +23,7 @@ case $preset in release | asan) ;; *) sed -n 3p "$0"; exit 2 ;; esac
 
 mkdir -p build
 source scripts/packages.sh
-install_packages "${BUILD_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
+install_packages "${BUILD_PACKAGES[@]}" "${GDAL_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 install_consumers
 [ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers check a build with OpenCV alone
 configure "$preset" "$@"
