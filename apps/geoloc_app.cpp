@@ -213,10 +213,7 @@ int main(int argc, char** argv) {
   if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->inputs.signing_store && !program->inputs.signing_store->remark().empty())
     console.say(program->inputs.signing_store->remark());
-  const bool has_reader = isatty(STDERR_FILENO) == 1;
-  if (program->page) console.say(page_message(*program->page, options.outputs, has_reader));
-  if (const auto code = has_reader && program->page ? page_for_telephones(*program->page) : ""; !code.empty())
-    console.say(code);
+  if (program->page) console.say(page_message(*program->page, options.outputs, isatty(STDERR_FILENO) == 1));
   const VideoEnd video = run_until_stopped(*program, *library_words, console, stop);
   program->session.finish();
 

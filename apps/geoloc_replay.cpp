@@ -236,11 +236,9 @@ int main(int argc, char** argv) {
 
   const StopSignal stop;
   tell_skipped(program->recording.skipped);
-  const bool has_reader = isatty(STDERR_FILENO) == 1;
   if (program->page)
-    std::fprintf(stderr, "%s\n", page_message(*program->page, options.outputs, has_reader).c_str());
-  if (const auto code = has_reader && program->page ? page_for_telephones(*program->page) : ""; !code.empty())
-    std::fprintf(stderr, "%s\n", code.c_str());
+    std::fprintf(stderr, "%s\n",
+                 page_message(*program->page, options.outputs, isatty(STDERR_FILENO) == 1).c_str());
   program->show->play_to_end(stop);
   keep_notes(options.recording, program->outputs);
   for (const std::string& line : program->show->session().take_news())

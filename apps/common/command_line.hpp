@@ -22,7 +22,7 @@ std::optional<int> parse(CLI::App& program, int argc, char** argv);
 /// For options of an unsigned type: CLI11 itself takes -1 for the greatest of them.
 CLI::Validator whole_number();
 
-/// Of the names, the one that a mistyped one is meant for; empty where none is near.
+/// The name that a mistyped one is meant for; empty where none is near.
 std::string nearest_name(const std::string& mistyped, const std::vector<std::string>& names);
 
 /// Runs `step`; whatever it throws is told on stderr after the program's name. nullopt where it did not

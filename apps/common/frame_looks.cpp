@@ -14,24 +14,29 @@ std::optional<Eigen::Vector2d> pixel_of(const Track& object, const Geolocator& g
                                           geolocator.view().enu_from_camera);
 }
 
+struct ShownObject {
+  std::uint64_t id;
+  Eigen::Vector2d pixel;
+};
+
 /// The objects that the frame showed, some of them for the first time.
-std::vector<const Track*> shown_in(const Geolocator& geolocator, HostTime captured_at) {
-  std::vector<const Track*> shown;
+std::vector<ShownObject> shown_in(const Geolocator& geolocator, HostTime captured_at) {
+  std::vector<ShownObject> shown;
   for (const Track& object : geolocator.tracks()) {
-    if (object.last_seen == captured_at && pixel_of(object, geolocator)) shown.push_back(&object);
+    if (object.last_seen != captured_at) continue;
+    if (const auto pixel = pixel_of(object, geolocator)) shown.push_back({object.id, *pixel});
   }
   return shown;
 }
 
 Eigen::MatrixXd distances_px(const std::vector<LocatedDetection>& detections,
-                             const std::vector<const Track*>& objects, const Geolocator& geolocator) {
+                             const std::vector<ShownObject>& objects) {
   Eigen::MatrixXd distances(static_cast<Eigen::Index>(detections.size()),
                             static_cast<Eigen::Index>(objects.size()));
   for (std::size_t k = 0; k < objects.size(); ++k) {
-    const Eigen::Vector2d pixel = *pixel_of(*objects[k], geolocator);
     for (std::size_t i = 0; i < detections.size(); ++i)
       distances(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) =
-          (detections[i].detection.box.centre() - pixel).norm();
+          (detections[i].detection.box.centre() - objects[k].pixel).norm();
   }
   return distances;
 }
@@ -48,14 +53,14 @@ Eigen::Vector3d position_in_view(const Track& object, const Geolocator& geolocat
 std::vector<io::Look> FrameLooks::looks(const Geolocator& geolocator, HostTime captured_at) const {
   const std::vector<LocatedDetection>& detections = geolocator.located();
   std::vector<io::Look> looks(detections.size());
-  const std::vector<const Track*> shown = shown_in(geolocator, captured_at);
+  const std::vector<ShownObject> shown = shown_in(geolocator, captured_at);
   if (shown.empty() || detections.empty()) return looks;
   const CameraIntrinsics& image = geolocator.projector().camera().intrinsics();
   AssignmentSolver solver;
-  const auto& object_of = solver.solve(distances_px(detections, shown, geolocator), image.width_px);
+  const auto& object_of = solver.solve(distances_px(detections, shown), image.width_px);
   for (std::size_t i = 0; i < detections.size(); ++i) {
     if (object_of[i] == AssignmentSolver::kUnassigned) continue;
-    looks[i].object_id = shown[object_of[i]]->id;
+    looks[i].object_id = shown[object_of[i]].id;
     const auto before = std::find_if(expected_.begin(), expected_.end(),
                                      [&](const Track& object) { return object.id == looks[i].object_id; });
     if (before != expected_.end()) looks[i].expected_px = pixel_of(*before, geolocator);

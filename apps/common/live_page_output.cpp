@@ -33,6 +33,16 @@ std::string warning_of(const OutputOptions& options) {
          "tunnel: ssh -L PORT:127.0.0.1:PORT THIS-COMPUTER";
 }
 
+/// A QR code of the page's address, and the address. Empty where the page is not open to the network, or this
+/// computer is in none.
+std::string for_telephones(const io::LivePage& page) {
+  const auto address = network_address();
+  if (!page.is_open_to_network() || !address) return {};
+  const std::string query = page.token().empty() ? "" : "?token=" + page.token();
+  const std::string url = page.url_for_others(*address) + query;
+  return "\n" + qr_code(url) + "from a telephone in the same network: " + url;
+}
+
 }  // namespace
 
 std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const io::LivePageConfig& config,
@@ -50,21 +60,14 @@ std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const
   }
 }
 
-std::string page_for_telephones(const io::LivePage& page) {
-  const auto address = network_address();
-  if (!page.is_open_to_network() || !address) return {};
-  const std::string query = page.token().empty() ? "" : "?token=" + page.token();
-  const std::string url = page.url_for_others(*address) + query;
-  return qr_code(url) + "from a telephone in the same network: " + url;
-}
-
 std::string page_message(const io::LivePage& page, const OutputOptions& options, bool is_terminal) {
   std::string where = "page: " + page.url();
   if (!options.http_token.empty()) {
     where += is_terminal ? "?token=" + page.token() + " (the token is in " : " (asks for the token in ";
     where += options.http_token + ")";
   }
-  return page.is_open_to_network() ? where + warning_of(options) : where;
+  if (page.is_open_to_network()) where += warning_of(options);
+  return is_terminal ? where + for_telephones(page) : where;
 }
 
 }  // namespace geoloc::apps

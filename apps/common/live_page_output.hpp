@@ -20,12 +20,9 @@ std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const
                                              const Outputs& outputs,
                                              std::shared_ptr<io::ReplayControl> playback = nullptr);
 
-/// For a terminal: a QR code of the page's address, and the address. Empty where the page is not open to the
-/// network, or this computer is in none.
-std::string page_for_telephones(const io::LivePage& page);
-
-/// Where the page is, and who else can see it, for the user. The token is shown to a terminal, for its reader
-/// to open the page, but kept out of logs.
+/// Where the page is, and who else can see it, for the user. A terminal also shows the token, for its reader
+/// to open the page, and a QR code of the address for telephones where the page is open to the network; logs
+/// get neither.
 std::string page_message(const io::LivePage& page, const OutputOptions& options, bool is_terminal);
 
 }  // namespace geoloc::apps

@@ -64,7 +64,7 @@ class Session final : private io::TelemetrySink {
   const RunHistory& history() const { return history_; }
   const RunCensus& census() const { return census_; }
 
-  /// Of the frame located last, one for each of Geolocator::located().
+  /// What became of the detections in the frame located last, one entry for each of Geolocator::located().
   const std::vector<io::Look>& looks() const { return looks_; }
   const io::VehicleLink& link() const { return link_; }
   io::VehicleLink& link() { return link_; }

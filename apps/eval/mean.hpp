@@ -5,7 +5,7 @@
 
 namespace geoloc::apps {
 
-/// Of those values that there are.
+/// The mean of the values that there are.
 class Mean {
  public:
   void add(const std::optional<double>& value) {

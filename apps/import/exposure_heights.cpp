@@ -18,7 +18,7 @@ const io::Still& still_of(const TimedStill& timed) {
   return timed.named.still;
 }
 
-/// Of the take-off, by the pictures that tell both heights.
+/// The absolute height of the take-off, by the pictures that tell both heights.
 std::optional<double> absolute_by_pictures_m(const std::vector<TimedStill>& stills) {
   std::vector<double> differences_m;
   for (const TimedStill& timed : stills) {

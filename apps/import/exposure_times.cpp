@@ -17,7 +17,7 @@ const io::CaptureTime& taken(const TimedStill& still) {
   return *still.named.still.taken;
 }
 
-/// Of the pictures that tell none: the user's, or what another picture tells, or none at all.
+/// The time zone of pictures that tell none: the user's, or that of another picture, or none at all.
 Duration assumed_zone(const std::vector<NamedStill>& stills, std::optional<double> utc_offset_h,
                       std::vector<std::string>& assumptions) {
   const auto silent = std::count_if(stills.begin(), stills.end(),

@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Of one day's flights; telemetry's clock would hold 49 days.
+/// The flights of one day; telemetry's clock would hold 49 days.
 constexpr Duration kLongestSpan = 24h;
 /// Between pictures farther apart, a vehicle may have gone anywhere.
 constexpr double kLongestLeg_s = 20.0;

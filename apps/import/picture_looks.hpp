@@ -19,12 +19,12 @@ struct PictureLooks {
   std::vector<std::string> left_out;  ///< file and reason
 };
 
-/// Of people. Throws std::runtime_error where no label is of these pictures; pictures that are not there are
-/// named in `left_out`.
+/// What people labelled. Throws std::runtime_error where no label belongs to these pictures; pictures that
+/// are not there are named in `left_out`.
 PictureLooks labelled_looks(const std::vector<Exposure>& exposures, const io::Labels& labels,
                             const std::string& labels_file);
 
-/// Of a detector, with progress, until `stop`.
+/// What a detector finds, with progress, until `stop`.
 PictureLooks detected_looks(const std::vector<Exposure>& exposures, io::Detector& detector,
                             const StopSignal& stop);
 

@@ -53,7 +53,7 @@ struct FrameDetections {
   /// 1-sigma of captured_at, but for what is constant over the flight; 0: not stated, and the configured
   /// constant holds.
   double time_sigma_s = 0.0;
-  /// Of a camera on a gimbal: how it was mounted at captured_at; nullopt: as configured.
+  /// How a camera on a gimbal was mounted at captured_at; nullopt: as configured.
   std::optional<CameraMount> mount = std::nullopt;
 };
 

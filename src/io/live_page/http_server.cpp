@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "http_server.hpp"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <unistd.h>

@@ -33,7 +33,7 @@ ObjectReport* same_object(std::vector<ObjectReport>& objects, const NotedObject&
   return found == objects.end() ? nullptr : &*found;
 }
 
-/// Of those without a note.
+/// The nearest object without a note; nullptr where none is near.
 ObjectReport* nearest_object(std::vector<ObjectReport>& objects, const Geodetic& place) {
   ObjectReport* nearest = nullptr;
   double least_m = kSamePlace_m;

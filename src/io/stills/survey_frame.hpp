@@ -19,7 +19,7 @@ class SurveyFrame {
   SurveyFrame(const SurveyFrame&) = delete;
   SurveyFrame& operator=(const SurveyFrame&) = delete;
 
-  /// Of easting (or longitude) and northing (or latitude); nullopt where they are no place.
+  /// The place of an easting (or longitude) and northing (or latitude); nullopt where they are none.
   std::optional<Geodetic> to_geodetic(double x, double y) const;
 
  private:

@@ -24,7 +24,7 @@ struct Destroyer {
 
 using Properties = std::map<std::string, std::string>;
 
-/// Of an attribute, or of an element that holds nothing but text.
+/// The text of an attribute, or of an element that holds nothing but text; nullptr for others.
 const char* text_of(const CPLXMLNode& node) {
   const CPLXMLNode* const child = node.psChild;
   return child != nullptr && child->eType == CXT_Text ? child->pszValue : nullptr;

@@ -36,7 +36,7 @@ std::optional<std::uint64_t> object_of_path(const std::string& path, std::string
 struct PageActions {
   /// False where there is no such object.
   std::function<bool(std::uint64_t object_id, const ObjectNote& note)> note = {};
-  /// Of a replay.
+  /// Pauses a replay, changes its speed, or goes to another place in it.
   std::function<void(const ReplayWish& wish)> play = {};
 };
 

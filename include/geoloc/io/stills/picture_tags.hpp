@@ -19,8 +19,8 @@ struct PictureTags {
   std::optional<std::string> xmp_text(const std::string& name) const;
 };
 
-/// Of a JPEG's bytes, of which those before the picture itself count. Throws std::runtime_error naming the
-/// fault, without a file's name.
+/// The tags in a JPEG's bytes, of which those before the picture itself count. Throws std::runtime_error
+/// naming the fault, without a file's name.
 PictureTags parse_picture_tags(std::string_view jpeg);
 
 /// The properties of an XMP packet: those of an rdf:Description by their names with prefix, those of a
