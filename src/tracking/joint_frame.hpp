@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "calibration/drift.hpp"
@@ -45,10 +46,10 @@ class NoiseClock {
  private:
   double position_time_constant_s_;
   double attitude_time_constant_s_;
-  double frames_in(double time_s) const { return pause_s_ ? std::max(1.0, time_s / *pause_s_) : 1.0; }
+  double frames_in(double time_s) const { return std::max(1.0, time_s / pause_s_); }
 
   std::optional<VehicleTime> last_;
-  std::optional<double> pause_s_;  // between the last frames
+  double pause_s_ = std::numeric_limits<double>::infinity();  // between the last frames
 };
 
 /// The present frame as the joint method sees it.
