@@ -62,7 +62,8 @@ struct Program {
                 }),
         outputs(inputs.detector->class_names(), {}) {
     add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
-    page = open_live_page(given.outputs, inputs.config.estimation.live_page, {source(), true},
+    if (!given.outputs.wants_raw_fixes()) session.history().only_count_fixes();
+    page = open_live_page(given.outputs, given.ground, inputs.config.estimation.live_page, {source(), true},
                           inputs.detector->class_names(), outputs);
     if (page) outputs.add(std::make_unique<io::LivePageSink>(page));
     recorder.emplace(given.record_folder, [this](io::RecordingWriter& writer) { write_settings(writer); });

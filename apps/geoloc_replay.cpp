@@ -146,7 +146,7 @@ struct Program {
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
     outputs.notes()->load(recording.notes);
     add_sinks(options.outputs, config, io::OldFile::kReplace, outputs);
-    page = open_live_page(options.outputs, config.live_page, {options.recording, false},
+    page = open_live_page(options.outputs, options.ground, config.live_page, {options.recording, false},
                           recording.class_names, outputs, playback);
     if (page) {
       for (const auto& [id, jpeg] : recording.pictures) page->show_object(id, jpeg);

@@ -13,11 +13,11 @@ namespace {
 /// the camera, and objects are taken for each other.
 constexpr double kFreeShare = 0.4;
 
+}  // namespace
+
 bool is_file(const GroundOptions& options) {
   return options.ground != kLevelGround && options.ground != kFreeGround;
 }
-
-}  // namespace
 
 void add_ground_options(CLI::App& program, GroundOptions& options) {
   program

@@ -19,6 +19,9 @@ struct GroundOptions {
   std::optional<double> sigma_m;
 };
 
+/// Whether the ground is an elevation model.
+bool is_file(const GroundOptions& options);
+
 /// --ground, --ground-sigma-m.
 void add_ground_options(CLI::App& program, GroundOptions& options);
 void add_ground_sigma_option(CLI::App& program, GroundOptions& options);

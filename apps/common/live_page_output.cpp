@@ -7,6 +7,7 @@
 #include "common/network_address.hpp"
 #include "common/qr_code.hpp"
 #include "geoloc/io/live_page/page_token.hpp"
+#include "geoloc/io/map/map_tiles.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -17,6 +18,24 @@ std::string token_of(const std::string& file) {
     return io::read_or_make_page_token(file);
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("--http-token ") + error.what());
+  }
+}
+
+io::PageMap page_map(const std::shared_ptr<const io::MapTiles>& tiles) {
+  const auto tile = [tiles](const std::string& address) -> std::optional<std::string> {
+    const auto parsed = io::parse_tile_address(address);
+    return parsed ? tiles->tile(*parsed) : std::nullopt;
+  };
+  return {tile, tiles->attribution()};
+}
+
+io::PageMap map_of(const OutputOptions& options, const GroundOptions& ground) {
+  if (options.map.empty() && !is_file(ground)) return {};
+  try {
+    return page_map(std::make_shared<io::MapTiles>(options.map.empty() ? io::MapTiles::relief(ground.ground)
+                                                                       : io::MapTiles::picture(options.map)));
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string(options.map.empty() ? "--ground " : "--map ") + error.what());
   }
 }
 
@@ -45,16 +64,17 @@ std::string for_telephones(const io::LivePage& page) {
 
 }  // namespace
 
-std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const io::LivePageConfig& config,
-                                             const io::LivePageTitle& title,
+std::shared_ptr<io::LivePage> open_live_page(const OutputOptions& options, const GroundOptions& ground,
+                                             const io::LivePageConfig& config, const io::LivePageTitle& title,
                                              const std::vector<std::string>& class_names,
                                              const Outputs& outputs,
                                              std::shared_ptr<io::ReplayControl> playback) {
   if (options.http.empty()) return nullptr;
-  const std::string token = token_of(options.http_token);
+  io::LivePageParts parts{token_of(options.http_token), outputs.notes(), std::move(playback),
+                          map_of(options, ground)};
   try {
     return std::make_shared<io::LivePage>(io::parse_http_endpoint(options.http), config, title, class_names,
-                                          token, outputs.notes(), std::move(playback));
+                                          std::move(parts));
   } catch (const std::exception& error) {
     throw std::runtime_error(std::string("--http: ") + error.what());
   }

@@ -53,6 +53,12 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
       ->type_name("FILE")
       ->needs(http)
       ->group("Outputs");
+  program
+      .add_option("--map", options.map,
+                  "Background of the page's map: MBTiles or GeoTIFF [the relief of --ground FILE]")
+      ->type_name("FILE")
+      ->needs(http)
+      ->group("Outputs");
 }
 
 NamedFiles files_of(const OutputOptions& options) {
@@ -71,6 +77,7 @@ NamedFiles files_of(const OutputOptions& options) {
 NamedFiles inputs_of(const OutputOptions& options) {
   NamedFiles files;
   add_named(files, "--http-token", options.http_token);
+  add_named(files, "--map", options.map);
   return files;
 }
 
@@ -88,6 +95,11 @@ void add_sinks(const OutputOptions& options, const EstimationConfig& config, io:
   add("--kml", options.kml, io::run_to_kml);
   for (const std::string& target : options.jsonl)
     outputs.add(std::make_unique<io::JsonLinesSink>(target, old_files, outputs.teller()));
+  if (!options.cot.empty() && !outputs.has_geoid())
+    outputs.teller()(
+        "--cot: the geoid EGM96 is not installed: heights are sent as unknown, and above mean sea level in "
+        "the "
+        "remarks. Build geoloc with Debian's proj-data, or run geographiclib-get-geoids egm96-5");
   for (const std::string& target : options.cot)
     outputs.add(std::make_unique<io::CotSink>(target, config.cot, outputs.teller()));
   add("--picture", options.picture, [](const io::RunRecord& run) { return io::to_svg(io::picture_of(run)); });

@@ -18,6 +18,7 @@ struct OutputOptions {
   std::string picture;             ///< SVG
   std::string http;                ///< [HOST:]PORT of the live page
   std::string http_token;          ///< file of the token that the live page asks for; empty: it asks for none
+  std::string map;                 ///< file of the page's background map
   std::string csv;                 ///< of the objects
   std::string kml;                 ///< of the run
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output
@@ -25,15 +26,18 @@ struct OutputOptions {
 
   /// Whether the objects go to standard output as a table: no file holds them, and the output is free.
   bool wants_table() const;
+
+  /// Whether a file shows the raw fixes.
+  bool wants_raw_fixes() const { return !raw.empty() || !picture.empty(); }
 };
 
-/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http, --http-token.
+/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http, --http-token, --map.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
 /// Those of them that are files, for check_outputs().
 NamedFiles files_of(const OutputOptions& options);
 
-/// The file that they read, as an input for check_outputs().
+/// The files that they read, as inputs for check_outputs().
 NamedFiles inputs_of(const OutputOptions& options);
 
 /// A sink for each, but for the live page (open_live_page()). `old_files`: of the names that are in use.

@@ -15,18 +15,26 @@ namespace geoloc::apps {
 /// forgotten, so that flights of hours stay drawable.
 class RunHistory {
  public:
-  explicit RunHistory(std::size_t capacity = 200'000) : capacity_(capacity) {}
-
   /// Notes the frame that the Geolocator located last.
   /// `frame`: its number. `looks`: one for each of its located detections.
   void note(const Geolocator& geolocator, HostTime captured_at, std::uint64_t frame,
             const std::vector<io::Look>& looks);
 
+  /// No file wants the raw fixes: they are counted, and take no memory.
+  void only_count_fixes() { keeps_fixes_ = false; }
+
+  /// Nothing of what was noted holds.
+  void begin_anew();
+
   const std::vector<io::RawFix>& raw_fixes() const { return raw_fixes_; }
   const std::vector<io::TrajectoryPoint>& trajectory() const { return trajectory_; }
 
+  /// How many fixes were noted.
+  std::uint64_t fixes() const { return fixes_; }
+
  private:
-  std::size_t capacity_;
+  bool keeps_fixes_ = true;
+  std::uint64_t fixes_ = 0;
   std::vector<io::RawFix> raw_fixes_;
   std::vector<io::TrajectoryPoint> trajectory_;
 };

@@ -103,8 +103,8 @@ std::string summarize_run(const Session& session, const std::vector<io::TrueTarg
   const std::uint64_t frames = session.frames();
   if (truth.empty()) {
     return fmt::format("{} objects from {} fixes in {} frames ({} without vehicle state)",
-                       io::report_objects(session.geolocator(), {}).size(),
-                       session.history().raw_fixes().size(), frames, session.frames_unusable()) +
+                       io::report_objects(session.geolocator(), {}).size(), session.history().fixes(), frames,
+                       session.frames_unusable()) +
            also;
   }
   const auto [scored, told] = without_known_points(session, truth);

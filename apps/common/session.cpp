@@ -53,7 +53,7 @@ void Session::begin_anew() {
   frames_without_vehicle_ += geolocator_.counters().frames;
   const GeolocatorConfig config = geolocator_.config();
   geolocator_ = Geolocator(config);
-  history_ = RunHistory{};
+  history_.begin_anew();
 }
 
 void Session::on_clock_step(Duration) {

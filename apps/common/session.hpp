@@ -62,6 +62,7 @@ class Session final : private io::TelemetrySink {
 
   const Geolocator& geolocator() const { return geolocator_; }
   const RunHistory& history() const { return history_; }
+  RunHistory& history() { return history_; }
   const RunCensus& census() const { return census_; }
 
   /// What became of the detections in the frame located last, one entry for each of Geolocator::located().

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""soak.py MINUTES: one run of geoloc_app through flights at six times real time, one after the other, with visitors of its page.
+"""soak.py MINUTES [SPEED]: one run of geoloc_app through flights at SPEED times real time (default 6), one after the other, with
+visitors of its page.
 
 Each flight's begin is a reboot of the vehicle and a restart of the stream. At the end, memory, file descriptors, threads and latency must
 be those of the first flights, every target must have one object, and the recording's replay must be the run, byte for byte.
@@ -18,7 +19,6 @@ import urllib.request
 from json_lines import JsonLines
 from support import Live, World, free_port, run
 
-SPEED = 6
 WARM_UP_SHARE = 0.2  # of the time, while caches and histories fill
 MOST_MB_PER_HOUR = 1.0
 
@@ -56,7 +56,8 @@ def visit(address, is_over):
 
 
 class Soak:
-    def __init__(self, folder, minutes):
+    def __init__(self, folder, minutes, speed):
+        self._speed = speed
         self._end = time.monotonic() + 60 * minutes
         self._begin = time.monotonic()
         self._world = World()
@@ -76,7 +77,7 @@ class Soak:
             visitor.start()
             try:
                 while time.monotonic() < self._end:
-                    with self._world.fly("--speed", SPEED, "--truth", self._truth) as sim:
+                    with self._world.fly("--speed", self._speed, "--truth", self._truth) as sim:
                         self._watch(app, sim)
                     self.flights += 1
             finally:
@@ -130,7 +131,7 @@ class Soak:
 def main():
     minutes = float(sys.argv[1])
     folder = pathlib.Path(tempfile.mkdtemp(prefix="geoloc-soak-"))
-    soak = Soak(folder, minutes)
+    soak = Soak(folder, minutes, float(sys.argv[2]) if len(sys.argv) > 2 else 6.0)
     status = soak.fly()
     faults = soak.check() + ([f"exit status {status}"] if status else [])
     for fault in faults:

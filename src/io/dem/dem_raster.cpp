@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/dem/dem_raster.hpp"
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
 #include <gdal.h>
 #include <gdal_frmts.h>
 #include <gdal_utils.h>
@@ -16,6 +14,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "io/gdal_dataset.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -23,32 +23,6 @@ constexpr double kMostHeights = 64e6;
 /// No ground on Earth is higher or deeper.
 constexpr double kMostHeight_m = 12e3;
 constexpr const char* kWgs84 = "EPSG:4326";
-
-/// Keeps GDAL's messages off stderr; the first error is the reason of a failure.
-class ErrorCatcher {
- public:
-  ErrorCatcher() { CPLPushErrorHandlerEx(&ErrorCatcher::note, this); }
-  ~ErrorCatcher() { CPLPopErrorHandler(); }
-  ErrorCatcher(const ErrorCatcher&) = delete;
-  ErrorCatcher& operator=(const ErrorCatcher&) = delete;
-
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(first_error_.empty() ? what : what + ": " + first_error_);
-  }
-
- private:
-  static void CPL_STDCALL note(CPLErr severity, CPLErrorNum, const char* message) {
-    auto& self = *static_cast<ErrorCatcher*>(CPLGetErrorHandlerUserData());
-    if (severity >= CE_Failure && self.first_error_.empty()) self.first_error_ = message;
-  }
-
-  std::string first_error_;
-};
-
-struct Closer {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, Closer>;
 
 /// The formats of elevation models, and what warping needs. Registered twice they are registered once.
 void register_formats() {
@@ -59,9 +33,9 @@ void register_formats() {
   GDALRegister_MEM();
 }
 
-Dataset open(const std::filesystem::path& file, const ErrorCatcher& errors) {
+GdalDataset open(const std::filesystem::path& file, const GdalErrors& errors) {
   constexpr std::array<const char*, 5> kFormats{"GTiff", "SRTMHGT", "DTED", "AAIGrid", nullptr};
-  Dataset dataset(
+  GdalDataset dataset(
       GDALOpenEx(file.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY, kFormats.data(), nullptr, nullptr));
   if (!dataset) errors.fail("not an elevation model (GeoTIFF, .hgt, DTED or ASCII grid)");
   if (GDALGetRasterCount(dataset.get()) < 1) throw std::runtime_error("holds no band");
@@ -105,13 +79,13 @@ bool is_wgs84(OGRSpatialReferenceH srs) {
 }
 
 /// In latitude and longitude, by bilinear resampling; what lies outside of the file has no height.
-Dataset warped(GDALDatasetH source, const ErrorCatcher& errors) {
+GdalDataset warped(GDALDatasetH source, const GdalErrors& errors) {
   std::array<const char*, 11> arguments{"-of", "MEM",      "-ot",        "Float32", "-t_srs", kWgs84,
                                         "-r",  "bilinear", "-dstnodata", "nan",     nullptr};
   const std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> options(
       GDALWarpAppOptionsNew(const_cast<char**>(arguments.data()), nullptr), &GDALWarpAppOptionsFree);
   int misused = 0;
-  Dataset result(GDALWarp("", nullptr, 1, &source, options.get(), &misused));
+  GdalDataset result(GDALWarp("", nullptr, 1, &source, options.get(), &misused));
   if (!result) errors.fail("its projection cannot be turned into latitude and longitude");
   refuse_too_large(result.get());
   return result;
@@ -129,7 +103,7 @@ double metres_per_unit(GDALRasterBandH band) {
 }
 
 /// From north to south, as GDAL has them; not a number where there is none.
-std::vector<float> heights_of(GDALDatasetH dataset, const ErrorCatcher& errors) {
+std::vector<float> heights_of(GDALDatasetH dataset, const GdalErrors& errors) {
   const GDALRasterBandH band = GDALGetRasterBand(dataset, 1);
   const int columns = GDALGetRasterXSize(dataset), rows = GDALGetRasterYSize(dataset);
   std::vector<float> heights_m(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -184,9 +158,9 @@ HeightGrid::Layout layout_of(GDALDatasetH dataset, const GeoTransform& transform
 }  // namespace
 
 DemRaster read_dem_raster(const std::filesystem::path& file) {
-  const ErrorCatcher errors;
+  const GdalErrors errors;
   register_formats();
-  Dataset dataset = open(file, errors);
+  GdalDataset dataset = open(file, errors);
   refuse_too_large(dataset.get());
   GeoTransform transform = transform_of(dataset.get());
   const OGRSpatialReferenceH srs = GDALGetSpatialRef(dataset.get());

@@ -47,15 +47,14 @@ class PageStream {
 }  // namespace
 
 LivePage::LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
-                   const std::vector<std::string>& class_names, const std::string& token,
-                   std::shared_ptr<NoteBook> notes, std::shared_ptr<ReplayControl> playback)
+                   const std::vector<std::string>& class_names, LivePageParts parts)
     : endpoint_(endpoint),
-      token_(token),
-      notes_(std::move(notes)),
+      token_(parts.token),
+      notes_(std::move(parts.notes)),
       document_(title),
       board_(class_names, std::chrono::milliseconds{std::lround(1e3 * config.picture_period_s)}),
-      site_(document_, board_, config, names_of_this_computer(endpoint.host), token,
-            actions(std::move(playback))) {
+      site_(document_, board_, config, names_of_this_computer(endpoint.host), token_,
+            actions(std::move(parts.playback)), std::move(parts.map)) {
   const std::chrono::milliseconds period{std::lround(1e3 * config.update_period_s)};
   server_ = std::make_unique<HttpServer>(
       endpoint, limits_of(config), site_.headers(),

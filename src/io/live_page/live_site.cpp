@@ -23,6 +23,7 @@ namespace geoloc::io {
 namespace {
 
 constexpr std::string_view kObjects = "/objects/";
+constexpr std::string_view kTiles = "/map/";
 constexpr std::string_view kNote = "/note";
 constexpr std::string_view kPicture = "/picture";
 constexpr std::string_view kPlayback = "/playback";
@@ -75,6 +76,14 @@ PageAnswer refuse(int status, const char* reason) {
   return answer;
 }
 
+/// The page asks for the tiles of a map of ours where it asks for all else.
+LivePageConfig with_map(LivePageConfig config, const PageMap& map) {
+  if (!map.tile) return config;
+  config.tile_url = "map/{z}/{x}/{y}";
+  config.tile_attribution = map.attribution;
+  return config;
+}
+
 PageAnswer json(std::string text) {
   PageAnswer answer;
   answer.type = "application/json";
@@ -124,15 +133,17 @@ std::optional<std::uint64_t> object_of_path(const std::string& path, std::string
 }
 
 LiveSite::LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
-                   std::vector<std::string> own_names, const std::string& token, PageActions actions)
+                   std::vector<std::string> own_names, const std::string& token, PageActions actions,
+                   PageMap map)
     : document_(document),
       board_(board),
       own_names_(std::move(own_names)),
-      config_(config),
+      config_(with_map(config, map)),
       actions_(std::move(actions)),
+      map_(std::move(map)),
       access_(std::make_unique<PageAccess>(token)),
       files_(std::make_unique<RunFiles>(document)),
-      headers_{{"Content-Security-Policy", content_security_policy(config, !token.empty())},
+      headers_{{"Content-Security-Policy", content_security_policy(config_, !token.empty())},
                {"X-Content-Type-Options", "nosniff"},
                {"Referrer-Policy", "no-referrer"},
                {"Cross-Origin-Resource-Policy", "same-origin"},
@@ -175,6 +186,13 @@ PageAnswer LiveSite::take_note(const PageRequest& request) const {
   return PageAnswer{204, "", "", false};
 }
 
+PageAnswer LiveSite::tile(const std::string& address) const {
+  auto png = map_.tile ? map_.tile(address) : std::nullopt;
+  if (!png) return refuse(404, "No map there.");
+  // Pages come back to places that they have shown before.
+  return {200, "image/png", std::move(*png), false, {{"Cache-Control", "private, max-age=3600"}}};
+}
+
 PageAnswer LiveSite::dispatch(const PageRequest& request) const {
   const std::string& path = request.path;
   if (path == "/events") {
@@ -188,6 +206,7 @@ PageAnswer LiveSite::dispatch(const PageRequest& request) const {
   }
   if (path == "/settings")
     return json(page_json::settings(config_, actions_.note && access_->may_change(request)));
+  if (path.compare(0, kTiles.size(), kTiles) == 0) return tile(path.substr(kTiles.size()));
   if (auto file = files_->find(path)) return {200, file->type, std::move(file->content), false};
   if (path.compare(0, kObjects.size(), kObjects) == 0) {
     if (const auto pictured = object_of_path(path, kPicture)) {

@@ -154,7 +154,7 @@ TEST_F(Changes, TheRunIsDownloadedWithItsNotes) {
 
 TEST(PageOfTheLoopback, TakesNotesOverHttp) {
   auto notes = std::make_shared<NoteBook>();
-  LivePage page({"127.0.0.1", 0}, {}, {"run", false}, {}, {}, notes);
+  LivePage page({"127.0.0.1", 0}, {}, {"run", false}, {}, {{}, notes});
   page.add(page_frame(1, 2));
   const std::string url = page.url();
   const auto port = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));

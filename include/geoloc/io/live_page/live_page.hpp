@@ -17,17 +17,22 @@ namespace geoloc::io {
 
 class HttpServer;
 
+/// What a page can have besides.
+struct LivePageParts {
+  std::string token = {};  ///< only those who have it get an answer (is_page_token()); empty: everyone
+  std::shared_ptr<NoteBook> notes = std::make_shared<NoteBook>();
+  std::shared_ptr<ReplayControl> playback = nullptr;  ///< of a replay
+  PageMap map = {};
+};
+
 /// A page that shows a run in any browser, served over HTTP by its own threads. Adding to it costs the caller
 /// the same however many pages are open: pages wait for the run, but the run never waits for a page.
 class LivePage {
  public:
-  /// Listens at once. With a token (is_page_token()) only those who have it get an answer. Throws
-  /// std::runtime_error that names the endpoint, the reason and the remedy, and std::invalid_argument naming
-  /// every problem of the configuration.
+  /// Listens at once. Throws std::runtime_error that names the endpoint, the reason and the remedy, and
+  /// std::invalid_argument naming every problem of the configuration.
   LivePage(const HttpEndpoint& endpoint, const LivePageConfig& config, const LivePageTitle& title,
-           const std::vector<std::string>& class_names, const std::string& token = {},
-           std::shared_ptr<NoteBook> notes = std::make_shared<NoteBook>(),
-           std::shared_ptr<ReplayControl> playback = nullptr);
+           const std::vector<std::string>& class_names, LivePageParts parts = {});
   /// Ends every connection at once.
   ~LivePage();
   LivePage(const LivePage&) = delete;

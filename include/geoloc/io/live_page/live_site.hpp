@@ -40,6 +40,13 @@ struct PageActions {
   std::function<void(const ReplayWish& wish)> play = {};
 };
 
+/// A background map for pages, in place of the one that the configuration names.
+struct PageMap {
+  /// The tile "17/70400/73939" (zoom, column, row of Web Mercator) as PNG; nullopt where there is none.
+  std::function<std::optional<std::string>(const std::string& address)> tile = {};
+  std::string attribution = {};  ///< what its maker wants to be read beside it
+};
+
 class RunFiles;
 
 /// The page's addresses: a request in, an answer out, without any input or output of its own. Thread-safe.
@@ -47,7 +54,8 @@ class LiveSite {
  public:
   /// Document and board must outlive it. With a token, nothing is shown to those who do not have it.
   LiveSite(const LiveDocument& document, PictureBoard& board, const LivePageConfig& config,
-           std::vector<std::string> own_names, const std::string& token = {}, PageActions actions = {});
+           std::vector<std::string> own_names, const std::string& token = {}, PageActions actions = {},
+           PageMap map = {});
   ~LiveSite();
   LiveSite(const LiveSite&) = delete;
   LiveSite& operator=(const LiveSite&) = delete;
@@ -61,12 +69,14 @@ class LiveSite {
   PageAnswer dispatch(const PageRequest& request) const;
   PageAnswer change(const PageRequest& request) const;
   PageAnswer take_note(const PageRequest& request) const;
+  PageAnswer tile(const std::string& address) const;
 
   const LiveDocument& document_;
   PictureBoard& board_;
   std::vector<std::string> own_names_;
   LivePageConfig config_;
   PageActions actions_;
+  PageMap map_;
   std::unique_ptr<const PageAccess> access_;
   std::unique_ptr<RunFiles> files_;
   Headers headers_;

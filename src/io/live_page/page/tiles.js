@@ -5,6 +5,7 @@ import { toDegrees, toMetres } from "./projection.js";
 const MOST_TILES = 256; // kept
 const MOST_DRAWN = 64;
 const TILE_PX = 256;
+const MOST_ZOOM = { own: 23, other: 19 }; // files of ours are enlarged there, other servers have no such tiles
 
 const longitudeOf = (x, n) => x / n * 360 - 180;
 const latitudeOf = (y, n) => Math.atan(Math.sinh(Math.PI * (1 - 2 * y / n))) * 180 / Math.PI;
@@ -14,6 +15,7 @@ const rowOf = (latitude, n) => (1 - Math.asinh(Math.tan(latitude * Math.PI / 180
 export class TileLayer {
   constructor(url, onLoad) {
     this.url = url;
+    this.mostZoom = url.includes("://") ? MOST_ZOOM.other : MOST_ZOOM.own;
     this.onLoad = onLoad;
     this.tiles = new Map();
   }
@@ -35,7 +37,7 @@ export class TileLayer {
     const [north, west] = toDegrees(anchor, viewport.toGround([0, 0]));
     const [south, east] = toDegrees(anchor, viewport.toGround([viewport.width, viewport.height]));
     const wanted = (viewport.width * devicePixelRatio / TILE_PX) * 360 / Math.max(1e-9, east - west);
-    const z = Math.max(0, Math.min(19, Math.round(Math.log2(wanted))));
+    const z = Math.max(0, Math.min(this.mostZoom, Math.round(Math.log2(wanted))));
     const n = 2 ** z;
     const columns = [Math.floor(columnOf(west, n)), Math.floor(columnOf(east, n))];
     const rows = [Math.floor(rowOf(north, n)), Math.floor(rowOf(south, n))];
