@@ -47,4 +47,7 @@ endif()
 if(GEOLOC_BUILD_APPS)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/models" "${PROJECT_SOURCE_DIR}/data/flights"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/geoloc")
+  if(TARGET geoloc_geoid)
+    install(DIRECTORY "${PROJECT_BINARY_DIR}/share/geoloc/geoids" DESTINATION "${CMAKE_INSTALL_DATADIR}/geoloc")
+  endif()
 endif()

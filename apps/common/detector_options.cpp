@@ -65,7 +65,7 @@ io::DetectionConfig detection_of(const DetectorOptions& options, const DetectorT
 
 io::DetectorFiles detector_files(const DetectorOptions& options) {
   io::DetectorFiles files;
-  files.model = options.model_file.empty() ? find_data_file("models/fiducial.onnx")
+  files.model = options.model_file.empty() ? find_data("models/fiducial.onnx")
                                            : std::filesystem::path(options.model_file);
   if (!options.class_names_file.empty()) files.class_names = options.class_names_file;
   if (!options.second_look_file.empty())

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/geoid_data.hpp"
+
 namespace geoloc::apps {
 
 Outputs::Outputs(std::vector<std::string> class_names, const io::SinkRunnerConfig& config)
-    : class_names_(std::move(class_names)), config_(config) {}
+    : class_names_(std::move(class_names)), config_(config), geoid_(open_geoid()) {}
 
 void Outputs::add(std::unique_ptr<io::Sink> sink) {
   const bool wants_frames = sink->wants_frames();
@@ -19,13 +21,18 @@ io::SinkRunner::Tell Outputs::teller() const {
   return [box = messages_](const std::string& message) { box->post(message); };
 }
 
+void Outputs::complete(std::vector<io::ObjectReport>& objects) const {
+  notes_->apply(objects);
+  geoid_.complete(objects);
+}
+
 void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool is_located) {
   if (streams_.empty()) return;
   const auto report = std::make_shared<io::OutputFrame>(
       io::report_frame(session.geolocator(), is_located, frame.captured_at, frame.detections, class_names_));
   report->number = session.frames() - 1;
   for (std::size_t i = 0; i < report->fixes.size(); ++i) report->fixes[i].look = session.looks()[i];
-  notes_->apply(report->objects);
+  complete(report->objects);
   for (io::SinkRunner* sink : streams_) sink->post(report);
 }
 
@@ -35,7 +42,7 @@ void Outputs::post_status(const io::LiveStatus& status) {
 }
 
 void Outputs::post_run(io::RunRecord run) {
-  notes_->apply(run.objects);
+  complete(run.objects);
   const auto shared = std::make_shared<const io::RunRecord>(std::move(run));
   for (const auto& sink : sinks_) sink->post(shared);
 }

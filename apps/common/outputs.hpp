@@ -7,6 +7,7 @@
 
 #include "common/message_box.hpp"
 #include "common/session.hpp"
+#include "geoloc/io/output/geoid.hpp"
 #include "geoloc/io/output/note_book.hpp"
 #include "geoloc/io/output/sink_runner.hpp"
 
@@ -36,8 +37,14 @@ class Outputs {
   /// For sinks that have something to tell a user themselves.
   io::SinkRunner::Tell teller() const;
 
+  /// Whether heights above the ellipsoid can be told.
+  bool has_geoid() const { return geoid_.is_installed(); }
+
   /// What people say of the objects, which all sinks are told.
   const std::shared_ptr<io::NoteBook>& notes() const { return notes_; }
+
+  /// What the estimator does not know of its objects: notes and heights above the ellipsoid.
+  void complete(std::vector<io::ObjectReport>& objects) const;
 
   /// What the sinks have to tell a user, since the last call.
   std::vector<std::string> take_messages() { return messages_->take(); }
@@ -45,6 +52,7 @@ class Outputs {
  private:
   std::vector<std::string> class_names_;
   io::SinkRunnerConfig config_;
+  io::Geoid geoid_;
   std::shared_ptr<io::NoteBook> notes_ = std::make_shared<io::NoteBook>();
   std::shared_ptr<MessageBox> messages_ = std::make_shared<MessageBox>();  // stuck sinks outlive this object
   std::vector<std::unique_ptr<io::SinkRunner>> sinks_;

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "geoloc/io/output/geoid.hpp"
+#include "common/geoid_data.hpp"
 #include "import/name_list.hpp"
 
 namespace geoloc::apps {
@@ -88,7 +88,7 @@ double height_m(const io::Still& still, const std::optional<double>& take_off_m)
 std::optional<double> above_sea_m(const std::vector<TimedStill>& stills, double absolute_m,
                                   std::vector<std::string>& assumptions) {
   if (!counts_from_ellipsoid(stills)) return absolute_m;
-  const auto undulation_m = io::Geoid().height_ellipsoid_m(still_of(stills.front()).position, 0.0);
+  const auto undulation_m = open_geoid().height_ellipsoid_m(still_of(stills.front()).position, 0.0);
   if (undulation_m) return absolute_m - *undulation_m;
   assumptions.push_back(
       "the pictures' absolute heights count from the ellipsoid (RTK), and there is no geoid on this computer "

@@ -52,7 +52,7 @@ void ReplayShow::show_end() {
 
 io::RunRecord ReplayShow::record() const {
   io::RunRecord record = record_run(*session_, source_.recording.class_names, source_.truth, source_.title);
-  outputs_.notes()->apply(record.objects);
+  outputs_.complete(record.objects);
   return record;
 }
 
@@ -101,7 +101,7 @@ bool ReplayShow::goes_on(HostTime at, const StopSignal& stop) {
 void ReplayShow::show(const PendingFrame& frame, bool is_located) {
   io::OutputFrame report = io::report_frame(session_->geolocator(), is_located, frame.captured_at,
                                             frame.detections, source_.recording.class_names);
-  outputs_.notes()->apply(report.objects);
+  outputs_.complete(report.objects);
   page_->add(report);
   page_->show_playback(playback_.json(frame.captured_at, is_seeking(frame.captured_at)));
   const auto now = std::chrono::steady_clock::now();

@@ -38,7 +38,7 @@ def to_metres(lon_lat_deg: np.ndarray, origin_deg: np.ndarray) -> np.ndarray:
 def read_points_deg(geojson: Path) -> np.ndarray:
     """Longitude, latitude (n, 2) of a FeatureCollection of Points."""
     features = json.loads(geojson.read_text())["features"]
-    return np.array([feature["geometry"]["coordinates"] for feature in features], dtype=float).reshape(-1, 2)
+    return np.array([feature["geometry"]["coordinates"][:2] for feature in features], dtype=float).reshape(-1, 2)
 
 
 def read_run(recording: Path, raw_csv: Path, flights: Path) -> Run:

@@ -99,7 +99,7 @@ class Camera(AppTest):
         objects = json.loads(self.objects_file.read_text())["features"]
         east, north = EARTH_RADIUS_M * math.cos(math.radians(latitude_deg)), EARTH_RADIUS_M
         return min(math.hypot(east * math.radians(lon - longitude_deg), north * math.radians(lat - latitude_deg))
-                   for lon, lat in (feature["geometry"]["coordinates"] for feature in objects))
+                   for lon, lat in (feature["geometry"]["coordinates"][:2] for feature in objects))
 
     def test_by_pymavlink_and_mavsdk(self):
         with self.watch({"camera": True, "status_text": True}) as app, self.fly():

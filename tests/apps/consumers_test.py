@@ -61,9 +61,23 @@ class Files(Replayed):
         self.replay()
         told = subprocess.run(["ogrinfo", "-al", "-so", self.objects_file], capture_output=True, text=True, check=True).stdout
         self.assertIn(f"Feature Count: {len(self.objects)}", told)
-        self.assertIn("Geometry: Point", told)
-        self.assertIn('ID["EPSG",4326]', told)
+        has_heights = all(len(feature["geometry"]["coordinates"]) == 3 for feature in self.objects.values())
+        self.assertIn("Geometry: 3D Point" if has_heights else "Geometry: Point", told)
+        self.assertIn('ID["EPSG",4979]' if has_heights else 'ID["EPSG",4326]', told)
         self.assertRegex(told, r"sigma_major_m: Real")
+
+    @unittest.skipUnless((BIN.parent / "share/geoloc/geoids").is_dir(), "was built without a geoid")
+    def test_heights_above_the_ellipsoid_by_proj(self):
+        self.replay()
+        above_sea = "\n".join("{} {} {}".format(*feature["geometry"]["coordinates"][:2], feature["properties"]["height_msl_m"])
+                              for feature in self.objects.values())
+        told = subprocess.run(["gdaltransform", "-s_srs", "+proj=longlat +datum=WGS84 +geoidgrids=egm96_15.gtx +vunits=m",
+                               "-t_srs", "EPSG:4979"], input=above_sea, capture_output=True, text=True, check=True).stdout
+        for feature, line in zip(self.objects.values(), told.splitlines(), strict=True):
+            height_m = float(line.split()[2])
+            self.assertGreater(abs(height_m - feature["properties"]["height_msl_m"]), 1, line)
+            self.assertAlmostEqual(height_m, feature["properties"]["height_ellipsoid_m"], delta=0.1)
+            self.assertEqual(feature["geometry"]["coordinates"][2], feature["properties"]["height_ellipsoid_m"])
 
     def test_csv_by_pandas(self):
         self.replay("--csv", self.folder / "objects.csv", "--raw", self.folder / "raw.csv")

@@ -49,7 +49,7 @@ FOUR_NOTATIONS = (r"^-?\d+\.\d{8}, -?\d+\.\d{8} \| \d+°\d\d′\d\d\.\d{3}″[NS
 
 def tile_of(feature, zoom):
     """The Web Mercator tile that holds a GeoJSON point."""
-    longitude, latitude = map(math.radians, feature["geometry"]["coordinates"])
+    longitude, latitude = map(math.radians, feature["geometry"]["coordinates"][:2])
     turns = (longitude / math.tau + 0.5, 0.5 - math.asinh(math.tan(latitude)) / math.tau)
     return (zoom, *(int(2**zoom * turn) for turn in turns))
 

@@ -112,7 +112,7 @@ class ReplayPage(BrowserTest):
             rows = page.locator("#objects li[data-id]:not(.tentative)")
             seen = [int(row.get_attribute("data-id")) for row in rows.all()]
             self.assertEqual(seen, sorted(seen, reverse=True))
-            places = {feature["properties"]["id"]: feature["geometry"]["coordinates"]
+            places = {feature["properties"]["id"]: feature["geometry"]["coordinates"][:2]
                       for feature in json.loads(self.objects_file.read_text())["features"]}
             self.assertEqual(set(seen), set(places))
             text = rows.first.inner_text()
@@ -127,7 +127,7 @@ class ReplayPage(BrowserTest):
         with self.play("--speed", "0") as replay:
             page = self.open_ended(replay)
             page.context.grant_permissions(["geolocation"])
-            longitude, latitude = json.loads(self.objects_file.read_text())["features"][0]["geometry"]["coordinates"]
+            longitude, latitude = json.loads(self.objects_file.read_text())["features"][0]["geometry"]["coordinates"][:2]
             page.context.set_geolocation({"latitude": latitude, "longitude": longitude})
             self.assertNotIn("from you", page.locator("#objects").inner_text())  # nobody has asked
             page.locator("#own-place").click()

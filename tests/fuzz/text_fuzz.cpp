@@ -44,6 +44,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
   io::ObjectReport object;
   object.class_name = name;
-  require(io::to_cot(object, {"uid", HostTime{}, false, 2.0}, {}).size() < 1400);
+  object.height.ellipsoid_m = 2.0;
+  require(io::to_cot(object, {"uid", HostTime{}, false}, {}).size() < 1400);
   return 0;
 }

@@ -176,6 +176,7 @@ std::string object(const ObjectReport& object, bool is_confirmed, std::uint64_t 
     json["course_deg"] = decimals(object.course->direction_deg, 0);
   }
   if (object.height.msl_m) json["height_msl_m"] = decimals(*object.height.msl_m, 1);
+  if (object.height.ellipsoid_m) json["height_ellipsoid_m"] = decimals(*object.height.ellipsoid_m, 1);
   if (!object.note.name.empty()) json["operator_name"] = object.note.name;
   if (object.note.verdict != Verdict::kNone) json["verdict"] = word_of(object.note.verdict);
   return text_of(json);

@@ -27,12 +27,6 @@ std::string whole_seconds(HostTime time) {
 CotSink::CotSink(std::string target, const CotConfig& config, const CotConnection::Tell& tell)
     : target_(std::move(target)), config_(config), connection_(parse_cot_endpoint(target_), config, tell) {
   throw_if_any(config.problems());
-  if (!geoid_.is_installed()) {
-    tell(
-        name() +
-        ": EGM96 is not installed (geographiclib-get-geoids egm96-5): heights are sent as unknown, and above "
-        "mean sea level in the remarks");
-  }
 }
 
 void CotSink::on_frame(const OutputFrame& frame) {
@@ -88,8 +82,6 @@ void CotSink::send(const ObjectReport& object, bool is_gone) {
   context.uid = config_.uid_prefix + "." + run_ + "." + std::to_string(object.id);
   context.sent_at = utc_now();
   context.is_gone = is_gone;
-  if (object.height.msl_m)
-    context.height_ellipsoid_m = geoid_.height_ellipsoid_m(object.position, *object.height.msl_m);
   connection_.send(to_cot(object, context, config_));
 }
 

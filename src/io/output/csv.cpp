@@ -35,12 +35,12 @@ std::string objects_to_csv(const std::vector<ObjectReport>& objects) {
       "sigma_major_m,sigma_minor_m,sigma_azimuth_deg,variance_east_m2,variance_north_m2,covariance_m2,speed_"
       "mps,"
       "course_deg,height_above_home_m,sigma_height_m,height_msl_m,"
-      "operator_name,operator_verdict\n";
+      "operator_name,operator_verdict,height_ellipsoid_m\n";
   for (const ObjectReport& object : objects) {
     if (!has_place(object)) continue;
     const Eigen::Matrix2d& covariance = object.covariance_in_enu;
     csv += fmt::format(
-        "{},{},{},{},{},{},{},{:.9f},{:.9f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", object.id,
+        "{},{},{},{},{},{},{},{:.9f},{:.9f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", object.id,
         object.class_id, csv_field(object.class_name), number(object.confidence, 3), object.hits,
         iso8601(object.first_seen), iso8601(object.last_seen), object.position.latitude_deg,
         object.position.longitude_deg, number(object.position_in_enu.x(), 3),
@@ -51,7 +51,7 @@ std::string objects_to_csv(const std::vector<ObjectReport>& objects) {
         object.course ? number(object.course->direction_deg, 1) : "", number(object.height.above_home_m, 3),
         object.height.sigma_m ? number(*object.height.sigma_m, 4) : "",
         object.height.msl_m ? number(*object.height.msl_m, 3) : "", csv_field(object.note.name),
-        word_of(object.note.verdict));
+        word_of(object.note.verdict), object.height.ellipsoid_m ? number(*object.height.ellipsoid_m, 3) : "");
   }
   return csv;
 }

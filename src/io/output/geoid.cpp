@@ -5,25 +5,41 @@
 #include <cmath>
 
 namespace geoloc::io {
+namespace {
 
-Geoid::Geoid(const std::string& folder) {
-  for (const char* name : {"egm96-5", "egm96-15"}) {
-    try {
-      geoid_ = std::make_unique<GeographicLib::Geoid>(name, folder);
-      return;
-    } catch (const GeographicLib::GeographicErr&) {  // not installed
+/// nullptr where the file is not there, or damaged.
+std::unique_ptr<const GeographicLib::Geoid> read(const std::string& name, const std::string& folder) {
+  constexpr bool kCubic = true, kAllInMemory = true;
+  try {
+    return std::make_unique<GeographicLib::Geoid>(name, folder, kCubic, kAllInMemory);
+  } catch (const GeographicLib::GeographicErr&) {
+    return nullptr;
+  }
+}
+
+}  // namespace
+
+Geoid::Geoid(const std::vector<std::string>& folders) {
+  for (const std::string& folder : folders) {
+    for (const char* name : {"egm96-5", "egm96-15"}) {
+      if (!geoid_) geoid_ = read(name, folder);
     }
   }
 }
 
 Geoid::~Geoid() = default;
+Geoid::Geoid(Geoid&&) noexcept = default;
+Geoid& Geoid::operator=(Geoid&&) noexcept = default;
 
 std::optional<double> Geoid::height_ellipsoid_m(const Geodetic& position, double height_msl_m) const {
   if (!geoid_ || !is_valid(position) || !std::isfinite(height_msl_m)) return std::nullopt;
-  try {
-    return height_msl_m + (*geoid_)(position.latitude_deg, position.longitude_deg);
-  } catch (const GeographicLib::GeographicErr&) {  // the file is damaged, or gone
-    return std::nullopt;
+  return height_msl_m + (*geoid_)(position.latitude_deg, position.longitude_deg);
+}
+
+void Geoid::complete(std::vector<ObjectReport>& objects) const {
+  for (ObjectReport& object : objects) {
+    if (object.height.msl_m)
+      object.height.ellipsoid_m = height_ellipsoid_m(object.position, *object.height.msl_m);
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/output/geojson.hpp"
 
+#include <cmath>
+
 #include "geoloc/io/output/decimals.hpp"
 #include "json_report.hpp"
 
@@ -10,8 +12,10 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json to_feature(const ObjectReport& object) {
-  const ordered_json coordinates{decimals(object.position.longitude_deg, 9),
-                                 decimals(object.position.latitude_deg, 9)};
+  ordered_json coordinates{decimals(object.position.longitude_deg, 9),
+                           decimals(object.position.latitude_deg, 9)};
+  if (std::isfinite(object.height.ellipsoid_m.value_or(NAN)))
+    coordinates.push_back(decimals(*object.height.ellipsoid_m, 3));
   return {{"type", "Feature"},
           {"geometry", {{"type", "Point"}, {"coordinates", coordinates}}},
           {"properties", properties_to_json(object)}};

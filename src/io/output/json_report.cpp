@@ -23,6 +23,7 @@ ordered_json properties_to_json(const ObjectReport& object) {
                           {"sigma_height_m", nullptr}};
   if (object.height.sigma_m) properties["sigma_height_m"] = decimals(*object.height.sigma_m, 4);
   if (object.height.msl_m) properties["height_msl_m"] = decimals(*object.height.msl_m, 3);
+  if (object.height.ellipsoid_m) properties["height_ellipsoid_m"] = decimals(*object.height.ellipsoid_m, 3);
   if (object.course) {
     properties["speed_mps"] = decimals(object.course->speed_mps, 2);
     properties["course_deg"] = decimals(object.course->direction_deg, 1);

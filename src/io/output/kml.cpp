@@ -48,6 +48,7 @@ void write_properties(const ObjectReport& object, std::string& kml) {
   write_number("height_above_home_m", object.height.above_home_m, 3, kml);
   if (object.height.sigma_m) write_number("sigma_height_m", *object.height.sigma_m, 4, kml);
   if (object.height.msl_m) write_number("height_msl_m", *object.height.msl_m, 3, kml);
+  if (object.height.ellipsoid_m) write_number("height_ellipsoid_m", *object.height.ellipsoid_m, 3, kml);
   if (object.course) {
     write_number("speed_mps", object.course->speed_mps, 2, kml);
     write_number("course_deg", object.course->direction_deg, 1, kml);

@@ -68,13 +68,15 @@ TEST(HostileNames, StayTextInMarkup) {
     const ObjectReport object = object_called(name);
     expect_sound_markup(run_to_kml(run_of(object)));
     expect_sound_markup(to_svg(picture_of(run_of(object))));
-    expect_sound_markup(to_cot(object, {"geoloc.0.17", HostTime{}, false, {}}, {}));
+    expect_sound_markup(to_cot(object, {"geoloc.0.17", HostTime{}, false}, {}));
   }
 }
 
 TEST(HostileNames, FitADatagramAsCot) {
   for (const std::string& name : hostile_names()) {
-    EXPECT_LT(to_cot(object_called(name), {"geoloc.0.17", HostTime{}, false, 690.0}, {}).size(), 1400U);
+    ObjectReport object = object_called(name);
+    object.height.ellipsoid_m = 690.0;
+    EXPECT_LT(to_cot(object, {"geoloc.0.17", HostTime{}, false}, {}).size(), 1400U);
   }
 }
 
@@ -104,10 +106,10 @@ TEST(FiguresThatAreNone, AreLeftOutOfEveryFormat) {
   object.ellipse = {kNan, kNan, kNan};
   object.covariance_in_enu.setConstant(kNan);
   object.confidence = kNan;
-  object.height = {kNan, kNan, kNan};
+  object.height = {kNan, kNan, kNan, kNan};
   OutputFrame frame;
   frame.objects = {object};
-  const std::string cot = to_cot(object, {"geoloc.0.17", HostTime{}, false, {}}, {});
+  const std::string cot = to_cot(object, {"geoloc.0.17", HostTime{}, false}, {});
   EXPECT_NE(cot.find("ce=\"9999999.00\""), std::string::npos) << cot;
   for (const std::string& text : {objects_to_csv({object}), objects_to_geojson({object}, {}),
                                   JsonLines().frame(frame), run_to_kml(run_of(object))}) {

@@ -108,7 +108,7 @@ TEST(Outputs, TellNotesOfTheObjectsThatHaveOne) {
   EXPECT_EQ(features[0]["properties"]["operator_name"], noted.note.name);
   EXPECT_EQ(features[0]["properties"]["operator_verdict"], "confirmed");
   EXPECT_FALSE(features[1]["properties"].contains("operator_name"));
-  EXPECT_NE(objects_to_csv(run.objects).find(",\"<b>=1,\"\"\",confirmed\n"), std::string::npos);
+  EXPECT_NE(objects_to_csv(run.objects).find(",\"<b>=1,\"\"\",confirmed,\n"), std::string::npos);
   EXPECT_NE(run_to_kml(run).find("<Data name=\"operator_verdict\"><value>confirmed</value>"),
             std::string::npos);
   EXPECT_NE(run_to_kml(run).find("<name>&lt;b&gt;=1,&quot; 1</name>"), std::string::npos);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "geoloc/io/output/cot_config.hpp"
@@ -14,7 +13,6 @@ struct CotContext {
   std::string uid;
   HostTime sent_at;
   bool is_gone = false;  ///< the object is no longer believed to exist: the event is stale at once
-  std::optional<double> height_ellipsoid_m;  ///< sent as unknown where it is
 };
 
 /// One CoT event (version 2.0, XML) of an object that has_place(). It is shorter than 1400 bytes, whatever

@@ -9,7 +9,6 @@
 
 #include "geoloc/io/output/cot_config.hpp"
 #include "geoloc/io/output/cot_connection.hpp"
-#include "geoloc/io/output/geoid.hpp"
 #include "geoloc/io/output/sink.hpp"
 
 namespace geoloc::io {
@@ -42,7 +41,6 @@ class CotSink final : public Sink {
 
   std::string target_;
   CotConfig config_;
-  Geoid geoid_;
   CotConnection connection_;
   std::string run_;  // of the uid
   std::vector<ObjectReport> objects_;

@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geoloc/geometry/geodetic.hpp"
+#include "geoloc/io/output/object_report.hpp"
 
 namespace GeographicLib {
 class Geoid;
@@ -13,20 +15,24 @@ class Geoid;
 
 namespace geoloc::io {
 
-/// Mean sea level relative to the WGS84 ellipsoid, from EGM96 if GeographicLib's data for it are installed
-/// (`geographiclib-get-geoids egm96-5`).
+/// Mean sea level relative to the WGS84 ellipsoid: EGM96, in GeographicLib's files. All of it is in memory,
+/// so that nobody waits for a disk later, and several threads may ask.
 class Geoid {
  public:
-  /// `folder` has the data; if empty, GeographicLib's default folder and GEOGRAPHICLIB_GEOID_PATH apply.
-  explicit Geoid(const std::string& folder = {});
+  /// The first of the folders that has egm96-5.pgm or egm96-15.pgm counts; an empty one stands for
+  /// GeographicLib's default, or GEOGRAPHICLIB_GEOID_PATH.
+  explicit Geoid(const std::vector<std::string>& folders = {""});
   ~Geoid();
-  Geoid(const Geoid&) = delete;
-  Geoid& operator=(const Geoid&) = delete;
+  Geoid(Geoid&&) noexcept;
+  Geoid& operator=(Geoid&&) noexcept;
 
   bool is_installed() const { return geoid_ != nullptr; }
 
-  /// nullopt without data, or if they cannot be read.
+  /// nullopt without data.
   std::optional<double> height_ellipsoid_m(const Geodetic& position, double height_msl_m) const;
+
+  /// The heights above the ellipsoid of all objects whose heights above the sea are known.
+  void complete(std::vector<ObjectReport>& objects) const;
 
  private:
   std::unique_ptr<const GeographicLib::Geoid> geoid_;

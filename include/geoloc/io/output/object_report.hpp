@@ -38,6 +38,7 @@ struct HeightReport {
   double above_home_m = 0.0;      ///< above the vehicle's home at the flight's start
   std::optional<double> sigma_m;  ///< where the method estimates heights; otherwise it is the ground's as set
   std::optional<double> msl_m;    ///< above mean sea level, where home's is known
+  std::optional<double> ellipsoid_m;  ///< above the WGS84 ellipsoid, where the geoid is known, too (Geoid)
 };
 
 /// What every output reports about an object.

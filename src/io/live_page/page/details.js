@@ -70,6 +70,7 @@ function facts(object, ways) {
     ["Major axis", `${number(object.azimuth_deg, 0)}° from north`],
     ["Object's height", `${number(object.height_m, 2)} m${object.sigma_height_m === undefined ? "" : ` ± ${sigmaText(object.sigma_height_m)}`}`],
     ...(object.height_msl_m === undefined ? [] : [["Above sea level", `${number(object.height_msl_m, 1)} m`]]),
+    ...(object.height_ellipsoid_m === undefined ? [] : [["Above the ellipsoid", `${number(object.height_ellipsoid_m, 1)} m`]]),
     ["Class", object.name],
     ["Confidence", `${number(100 * object.confidence, 1)} %`],
     ...(object.speed_mps === undefined ? [] : [
