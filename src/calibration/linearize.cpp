@@ -30,10 +30,8 @@ FixJacobians jacobians_of(const GroundFix& fix, const FrameView& view, double he
       ground_from_turn * view.enu_from_camera.rotation.toRotationMatrix();
   // A later exposure shows the vehicle farther back: minus the ground's velocity along the ray.
   const Eigen::Vector3d& velocity = view.vehicle.velocity_in_enu;
-  const Eigen::Vector3d turn_rate_in_enu =
-      view.vehicle.enu_from_body.rotation * view.vehicle.angular_velocity_in_body;
   jacobians.calibration.col(Index::kLatency) =
-      -velocity.head<2>() - ground_from_height * velocity.z() - ground_from_turn * turn_rate_in_enu;
+      -velocity.head<2>() - ground_from_height * velocity.z() - ground_from_turn * view.turn.rate_in_enu;
   jacobians.calibration.col(Index::kHeight) = ground_from_height;
   jacobians.calibration.middleCols<2>(Index::kOffset).setIdentity();
   jacobians.height = ground_from_height;

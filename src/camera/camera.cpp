@@ -115,6 +115,13 @@ Eigen::Quaterniond body_from_forward_camera() {
   return Eigen::Quaterniond(rotation);
 }
 
+CameraMount CameraMount::on_gimbal() {
+  CameraMount mount;
+  mount.kind = MountKind::kGimbal;
+  mount.pitch_deg = 0.0;
+  return mount;
+}
+
 Rigid3d body_from_camera(const CameraMount& mount) {
   const EulerAngles angles{mount.roll_deg * kRadPerDeg, mount.pitch_deg * kRadPerDeg,
                            mount.yaw_deg * kRadPerDeg};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <utility>
+
 #include "geoloc/camera/camera.hpp"
 #include "settings/rules.hpp"
 
@@ -16,11 +19,22 @@ inline bool is_usable(const CameraMount& mount) {
          kLeverArm_m.contains(mount.y_m) && kLeverArm_m.contains(mount.z_m);
 }
 
+template <>
+struct EnumNames<MountKind> {
+  static constexpr std::array<std::pair<MountKind, const char*>, 2> all{
+      {{MountKind::kFixed, "fixed"}, {MountKind::kGimbal, "gimbal"}}};
+};
+
 template <class Visitor>
 void visit_fields(Visitor& v, CameraMount& mount) {
-  v.field("roll_deg", mount.roll_deg, kMountAngle_deg, "deg", "Roll of the camera in the body, applied last");
+  v.field(
+      "kind", mount.kind, Any{}, "",
+      "The camera is fixed to the body, or on a gimbal whose angles the telemetry tells: the angles below "
+      "are then 0 for a camera that looks where the gimbal says");
+  v.field("roll_deg", mount.roll_deg, kMountAngle_deg, "deg",
+          "Roll of the camera in the body, or in the gimbal's axes; applied last");
   v.field("pitch_deg", mount.pitch_deg, kMountAngle_deg, "deg",
-          "Pitch; -90 looks straight down, the image's top to the nose");
+          "Pitch; -90 looks straight down, the image's top to the nose. On a gimbal the default is 0");
   v.field("yaw_deg", mount.yaw_deg, kMountAngle_deg, "deg", "Yaw, clockwise from the nose, applied first");
   v.field("x_m", mount.x_m, kLeverArm_m, "m", "Lever arm forward");
   v.field("y_m", mount.y_m, kLeverArm_m, "m", "Lever arm to the right");

@@ -30,6 +30,9 @@ const char* explain(FrameFate fate) {
       return "The mount that came with the frame has an angle beyond 360 deg, a lever arm beyond 100 m, or "
              "is "
              "no number.";
+    case FrameFate::kNoGimbal:
+      return "The camera's mount is of kind gimbal, and no angles of the gimbal have come: add(GimbalSample) "
+             "them, or set camera.mount.kind to fixed.";
   }
   return "";
 }

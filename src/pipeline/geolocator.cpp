@@ -29,6 +29,10 @@ void Geolocator::add(const RangeSample& sample) {
   implementation_->add(sample);
 }
 
+void Geolocator::add(const GimbalSample& sample) {
+  implementation_->add(sample);
+}
+
 std::optional<FrameOutcome> Geolocator::add(const FrameDetections& frame) {
   return implementation_->add(frame);
 }
@@ -50,9 +54,7 @@ void Geolocator::on_vehicle_clock_step() {
 }
 
 std::optional<NoState> Geolocator::missing_state(VehicleTime captured_at) const {
-  const auto vehicle = implementation_->vehicle_at(captured_at);
-  if (vehicle) return std::nullopt;
-  return vehicle.error();
+  return implementation_->missing_state(captured_at);
 }
 
 bool Geolocator::process(const FrameDetections& frame) {

@@ -33,6 +33,8 @@ FrameFate fate_of(NoState reason) {
       return FrameFate::kInAGap;
     case NoState::kNoSamples:
       return FrameFate::kNoTelemetry;
+    case NoState::kNoGimbal:
+      return FrameFate::kNoGimbal;
   }
   return FrameFate::kNoTelemetry;
 }
@@ -60,6 +62,33 @@ void Geolocator::Implementation::add(const RangeSample& sample) {
     reboots_ = reboots;
   }
   if (ranges_.insert(sample.time, sample.distance_m)) ++counters.ranges;
+}
+
+/// Cameras that are fixed to the body leave a gimbal alone.
+void Geolocator::Implementation::add(const GimbalSample& sample) {
+  if (config.camera.mount.kind != MountKind::kGimbal) return;
+  const GimbalYaw before = state.gimbal().reading(sample.yaw);
+  state.add(sample);
+  if (state.gimbal().reading(sample.yaw) != before) begin_map_anew();
+}
+
+/// Nothing that was estimated holds, but for the local frame.
+void Geolocator::Implementation::begin_map_anew() {
+  if (!last_stamp_) return;
+  ++counters.maps_void;
+  tracker = make_tracker(config);
+  located.clear();
+  last_stamp_.reset();
+  has_object_ = false;
+}
+
+std::optional<NoState> Geolocator::Implementation::missing_state(VehicleTime captured_at) const {
+  const auto vehicle = state.at(believed_time(captured_at));
+  if (!vehicle) return vehicle.error();
+  if (config.camera.mount.kind != MountKind::kGimbal) return std::nullopt;
+  const auto gimbal = state.gimbal_at(*vehicle);
+  if (!gimbal) return gimbal.error();
+  return std::nullopt;
 }
 
 /// The distance between two readings that are near to each other in time and length: not across a wall's
@@ -104,9 +133,9 @@ std::optional<FrameOutcome> Geolocator::Implementation::process_next(FrameWait w
   }
   if (!waiting.is_full()) return std::nullopt;
   const FrameStamp stamp = waiting.latest().stamp;
-  const auto vehicle = vehicle_at(stamp.captured_at);
+  const auto missing = missing_state(stamp.captured_at);
   waiting.remove_latest();
-  return count(stamp, vehicle ? FrameFate::kNoRoom : fate_of(vehicle.error()));
+  return count(stamp, missing ? fate_of(*missing) : FrameFate::kNoRoom);
 }
 
 bool Geolocator::Implementation::process(const FrameDetections& frame) {
@@ -125,7 +154,8 @@ bool Geolocator::Implementation::is_late(const KeptFrame& frame) const {
 }
 
 bool Geolocator::Implementation::must_wait(const KeptFrame& frame) const {
-  return !is_forgotten(frame) && !is_late(frame) && !state.is_settled(believed_time(frame.stamp.captured_at));
+  return !is_forgotten(frame) && !is_late(frame) &&
+         !viewer.is_settled(frame.stamp, believed_time(frame.stamp.captured_at));
 }
 
 FrameFate Geolocator::Implementation::process_waiting(const KeptFrame& frame) {

@@ -23,11 +23,10 @@ class Geolocator::Implementation {
  public:
   explicit Implementation(const GeolocatorConfig& given);
 
-  Expected<VehicleState, NoState> vehicle_at(VehicleTime captured_at) const {
-    return state.at(believed_time(captured_at));
-  }
+  std::optional<NoState> missing_state(VehicleTime captured_at) const;
 
   void add(const RangeSample& sample);
+  void add(const GimbalSample& sample);
   std::optional<FrameOutcome> add(const FrameDetections& frame);
   std::optional<FrameOutcome> process_next(FrameWait wait);
   bool process(const FrameDetections& frame);
@@ -38,7 +37,7 @@ class Geolocator::Implementation {
   const FrameViewer viewer;
   const Projector projector;
   GroundModel ground;  // level until the vehicle's first position
-  const std::unique_ptr<Tracker> tracker;
+  std::unique_ptr<Tracker> tracker;
   FrameView view;
   std::vector<LocatedDetection> located;
   Counters counters;
@@ -48,6 +47,7 @@ class Geolocator::Implementation {
   VehicleTime believed_time(VehicleTime captured_at) const {
     return captured_at - from_seconds(tracker->calibration().latency_s());
   }
+  void begin_map_anew();
   void take(const FrameDetections& frame);
   bool is_forgotten(const KeptFrame& frame) const { return frame.clock_epoch != state.clock_epoch(); }
   bool is_late(const KeptFrame& frame) const;

@@ -2,11 +2,21 @@
 #pragma once
 
 #include "geoloc/camera/camera.hpp"
+#include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 
 namespace geoloc {
 
-/// Pose of the camera at the state's instant.
+/// Pose of a camera that is fixed to the body, at the state's instant.
 Rigid3d enu_from_camera(const VehicleState& state, const CameraMount& mount, CameraOrientation orientation);
+
+/// Pose of a camera on a gimbal: turned as the gimbal is, in the place of its lever arm in the body.
+Rigid3d enu_from_camera(const VehicleState& state, const GimbalState& gimbal, const CameraMount& mount);
+
+/// Of a camera that is fixed to the body.
+CameraTurn turn_of(const VehicleState& state);
+
+/// Of a camera on a gimbal.
+CameraTurn turn_of(const VehicleState& state, const GimbalState& gimbal);
 
 }  // namespace geoloc

@@ -9,6 +9,7 @@ namespace {
 VehicleState turned_round(VehicleState vehicle) {
   const Eigen::Quaterniond half_a_turn(0.0, 0.0, 0.0, 1.0);  // about the vertical
   vehicle.enu_from_body.rotation = half_a_turn * vehicle.enu_from_body.rotation;
+  vehicle.enu_from_vehicle_ned = half_a_turn * vehicle.enu_from_vehicle_ned;
   return vehicle;
 }
 
@@ -18,9 +19,26 @@ Expected<FrameView, NoState> FrameViewer::nominal_view(const FrameStamp& stamp, 
   const auto told = state.at(stamp.captured_at - from_seconds(latency_s));
   if (!told) return told.error();
   const VehicleState vehicle = stamp.is_turned ? turned_round(*told) : *told;
-  const CameraMount& mounted = stamp.mount ? *stamp.mount : mount;
-  return FrameView{vehicle, enu_from_camera(vehicle, mounted, orientation), stamp.captured_at_host, 0.0,
-                   latency_s};
+  const CameraMount& mounted = mount_of(stamp);
+  FrameView view;
+  view.vehicle = vehicle;
+  view.captured_at_host = stamp.captured_at_host;
+  view.latency_s = latency_s;
+  if (mounted.kind == MountKind::kFixed) {
+    view.enu_from_camera = enu_from_camera(vehicle, mounted, orientation);
+    view.turn = turn_of(vehicle);
+    return view;
+  }
+  const auto gimbal = state.gimbal_at(vehicle);
+  if (!gimbal) return gimbal.error();
+  view.enu_from_camera = enu_from_camera(vehicle, *gimbal, mounted);
+  view.turn = turn_of(vehicle, *gimbal);
+  return view;
+}
+
+bool FrameViewer::is_settled(const FrameStamp& stamp, VehicleTime time) const {
+  return state.is_settled(time) &&
+         (mount_of(stamp).kind == MountKind::kFixed || state.gimbal().reaches_beyond(time));
 }
 
 FrameView calibrated(FrameView nominal_view, const Calibration& calibration, double lift_m) {

@@ -15,6 +15,11 @@ struct FrameViewer {
   const CameraMount& mount;  ///< of frames whose stamp has none
   CameraOrientation orientation;
 
+  const CameraMount& mount_of(const FrameStamp& stamp) const { return stamp.mount ? *stamp.mount : mount; }
+
+  /// Whether everything that tells how the camera was at that time has samples from beyond it.
+  bool is_settled(const FrameStamp& stamp, VehicleTime time) const;
+
   /// The nominal pose, neither turned nor lifted. NoState: why there is none.
   Expected<FrameView, NoState> nominal_view(const FrameStamp& stamp, double latency_s) const;
 };

@@ -8,6 +8,7 @@
 #include "geoloc/geometry/problems.hpp"
 #include "settings/field_checker.hpp"
 #include "state/state_fields.hpp"
+#include "state/turning.hpp"
 
 namespace geoloc {
 namespace {
@@ -19,22 +20,11 @@ constexpr double kFrameReach_m = 200e3;
 /// a first fix.
 constexpr double kFirstFixError_m = 100.0, kHighestSpeed_mps = 250.0, kEarthRadius_m = 6.371e6;
 
-/// What a vehicle does between two samples: RMS of what straight lines between decimated samples of the
-/// flights in data/flights are off by, 1 to 5 Hz.
+/// RMS of what straight lines between decimated samples of the flights in data/flights are off by, 1 to 5 Hz.
 constexpr double kAcceleration_mps2 = 1.0;
-constexpr double kAngularAcceleration_radps2 = 8.0 * kRadPerDeg;
-/// A vehicle that is turning may have begun or will end within this.
-constexpr double kTurnChange_s = 0.5;
 
 StateSteps sum(const StateSteps& a, const StateSteps& b) {
   return {a.segment + b.segment, a.size + b.size, a.variance + b.variance};
-}
-
-/// Nothing is known of between two samples with a step from one to the other.
-template <typename Sample>
-std::optional<NoState> step_in(const Bracket<Sample>& bracket) {
-  if (bracket.before.steps.segment == bracket.after.steps.segment) return std::nullopt;
-  return bracket.alpha > 1.0 ? NoState::kNotYet : NoState::kInAGap;
 }
 
 /// A late sample has the steps of the ones around it; where these differ, it is of no use.
@@ -72,6 +62,12 @@ bool are_within_a_turn(const EulerAngles& angles) {
          std::abs(angles.pitch_rad) <= 0.5 * kPi + kRounding_rad;
 }
 
+/// But for what single precision rounds. False for NaN.
+bool is_rotation(const Eigen::Quaterniond& q) {
+  constexpr double kTolerance = 0.01;
+  return std::abs(q.norm() - 1.0) <= kTolerance;
+}
+
 Eigen::Quaterniond interpolate_attitude(const EulerAngles& before, const EulerAngles& after, double alpha,
                                         AttitudeInterpolation how) {
   if (how == AttitudeInterpolation::kCircular)
@@ -91,7 +87,7 @@ std::vector<std::string> StateConfig::problems() const {
   return check_fields(*this);
 }
 
-StateProvider::StateProvider(const StateConfig& config) : config_(config) {
+StateProvider::StateProvider(const StateConfig& config) : config_(config), gimbal_(config) {
   throw_if_any(config.problems());
 }
 
@@ -122,6 +118,8 @@ void StateProvider::on_clock_step() {
 void StateProvider::forget_samples() {
   attitudes_.clear();
   positions_.clear();
+  gimbal_.restart();
+  newest_gimbal_.reset();
   if (unconfirmed_) frame_.reset();
   unconfirmed_.reset();
   home_.restart();
@@ -146,7 +144,33 @@ void StateProvider::add(const AttitudeSample& sample) {
     ++counters_.stale;
     return;
   }
-  attitudes_.insert(sample.time, {sample.angles, *steps});
+  if (attitudes_.insert(sample.time, {sample.angles, *steps})) gimbal_.note_vehicle(sample.angles);
+}
+
+void StateProvider::add(const GimbalSample& sample) {
+  if (!is_rotation(sample.level_from_gimbal)) {
+    ++counters_.invalid;
+    return;
+  }
+  if (!accept_stamp(sample.time)) return;
+  const auto steps = steps_around(sample.time, attitudes_, watch_.steps_of_attitude());
+  if (!steps) {
+    ++counters_.stale;
+    return;
+  }
+  if (newest_gimbal_) compare_with_vehicle(*newest_gimbal_);
+  newest_gimbal_ = sample;
+  gimbal_.add(sample, *steps);
+}
+
+/// One whose vehicle's attitude is not known yet is left out: there are enough of them.
+void StateProvider::compare_with_vehicle(const GimbalSample& gimbal) {
+  constexpr Duration kLongestGap = std::chrono::seconds{1};
+  const auto attitude = attitudes_.bracket(gimbal.time, kLongestGap, Duration::zero());
+  if (!attitude || step_in(*attitude)) return;
+  const EulerAngles angles =
+      Interpolator<EulerAngles>::between(attitude->before.value, attitude->after.value, attitude->alpha);
+  gimbal_.compare(gimbal, angles.yaw_rad - attitude->before.steps.size[3]);
 }
 
 void StateProvider::add(const PositionSample& sample) {
@@ -233,8 +257,9 @@ Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
   const Eigen::Vector4d stepped = state.steps.size - anchor_.size;
   const Eigen::AngleAxisd true_north_turn(here.convergence_rad, Eigen::Vector3d::UnitZ());
   const Eigen::AngleAxisd turn_back(stepped[3], Eigen::Vector3d::UnitZ());
+  state.enu_from_vehicle_ned = turn_back * enu_from_ned() * true_north_turn;
   state.enu_from_body.rotation =
-      (turn_back * enu_from_ned() * true_north_turn *
+      (state.enu_from_vehicle_ned *
        interpolate_attitude(angles_before, angles_after, attitude.alpha, config_.attitude_interpolation))
           .normalized();
   state.enu_from_body.translation = here.position_in_enu - stepped.head<3>();
@@ -251,6 +276,10 @@ Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
   return state;
 }
 
+Expected<GimbalState, NoState> StateProvider::gimbal_at(const VehicleState& vehicle) const {
+  return gimbal_.at(vehicle);
+}
+
 void StateProvider::anchor(VehicleTime time) {
   const auto found = brackets(time);
   if (found) anchor_ = sum(found->position.before.steps, found->attitude.before.steps);
@@ -264,8 +293,10 @@ StateProvider::Counters StateProvider::counters() const {
   Counters all = counters_;
   all.attitudes = attitudes_.counters().inserted;
   all.positions = positions_.counters().inserted;
-  all.duplicates = attitudes_.counters().duplicates + positions_.counters().duplicates;
-  all.stale += attitudes_.counters().stale + positions_.counters().stale;
+  const auto& gimbals = gimbal_.counters();
+  all.gimbals = gimbals.inserted;
+  all.duplicates = attitudes_.counters().duplicates + positions_.counters().duplicates + gimbals.duplicates;
+  all.stale += attitudes_.counters().stale + positions_.counters().stale + gimbals.stale;
   all.home_moves = home_.moves();
   all.position_steps = watch_.horizontal_steps();
   all.height_steps = watch_.height_steps();

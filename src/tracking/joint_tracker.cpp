@@ -304,7 +304,7 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
           located.view,
           span,
           drift.at(span),
-          noise_clock_.tick(vehicle.time, vehicle.telemetry_gap),
+          noise_clock_.tick(vehicle.time, located.view.turn.telemetry_gap),
           ground_height_m,
           clutter_rate_.per_frame(),
           stream_start_.observe(located.stamp.captured_at_host, located.stamp.time_sigma_s,

@@ -95,6 +95,7 @@ LookMaker::Noise LookMaker::noise_of(const Detection& detection, const GroundFix
                                      const FixJacobians& jacobians, const JointFrame& frame,
                                      const SharedErrorEstimate& errors) const {
   const VehicleState& vehicle = frame.view.vehicle;
+  const CameraTurn& turned = frame.view.turn;
   const auto turn = jacobians.calibration.middleCols<3>(Index::kBoresight);
   const Eigen::Matrix2d per_turn = turn * turn.transpose();
   const Eigen::Vector2d ground_velocity = jacobians.calibration.col(Index::kLatency);
@@ -106,9 +107,9 @@ LookMaker::Noise LookMaker::noise_of(const Detection& detection, const GroundFix
           std::pow(frame.run_time.sigma_s, 2) * per_time,
           errors.noise.attitude_variance_rad2() * per_turn,
           position_variance * Eigen::Matrix2d::Identity(),
-          std::pow(vehicle.sigma_turn_rad, 2) * per_turn +
+          std::pow(turned.sigma_rad, 2) * per_turn +
               std::pow(vehicle.sigma_position_m, 2) * Eigen::Matrix2d::Identity(),
-          std::pow(vehicle.sigma_bend_rad, 2) * per_turn};
+          std::pow(turned.sigma_bend_rad, 2) * per_turn};
 }
 
 /// The attitude's error is the same in all looks of a frame: N of them with N times its variance say as much

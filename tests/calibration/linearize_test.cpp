@@ -45,7 +45,7 @@ class ExactFix {
     view.vehicle.enu_from_body.translation += drift.head<3>();
     view.vehicle.enu_from_body.translation.head<2>() += calibration.segment<2>(CalibrationIndex::kOffset);
     view.vehicle.velocity_in_enu = regime_.velocity_in_enu;
-    view.vehicle.angular_velocity_in_body = rate;
+    view.turn.rate_in_enu = view.vehicle.enu_from_body.rotation * rate;
     view.enu_from_camera = enu_from_camera(view.vehicle, mount_, CameraOrientation::kComposed);
     Calibration{calibration, CalibrationMatrix::Zero()}.turn(view.enu_from_camera);
     view.enu_from_camera.translation.z() += calibration[CalibrationIndex::kHeight];

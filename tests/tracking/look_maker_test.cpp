@@ -131,7 +131,7 @@ TEST_F(LooksFromAbove, KnowHowFarTheStateWasInterpolated) {
   repetition_.of_interpolation = 7.0;
   const std::vector<LocatedDetection> detections{located(0.0, 0.0), located(0.0, 5.0)};
   const Look known = make(detections).at_rest[0];
-  view_.vehicle.sigma_turn_rad = 0.02;
+  view_.turn.sigma_rad = 0.02;
   view_.vehicle.sigma_position_m = 0.3;
   const Look interpolated = make(detections).at_rest[0];
   const Eigen::Matrix2d one = Eigen::Matrix2d::Identity();
@@ -148,7 +148,7 @@ TEST_F(LooksFromAbove, HaveWhatABendMayAddEachForItself) {
   repetition_.of_interpolation = 7.0;
   const std::vector<LocatedDetection> detections{located(0.0, 0.0), located(0.0, 5.0)};
   const Look straight = make(detections).at_rest[0];
-  view_.vehicle.sigma_bend_rad = 0.1;
+  view_.turn.sigma_bend_rad = 0.1;
   const Look bent = make(detections).at_rest[0];
   const Eigen::Matrix2d added = std::pow(0.1 * kUp_m, 2) * Eigen::Matrix2d::Identity();
   EXPECT_LT((bent.pixel_noise - straight.pixel_noise - added).norm(), 1e-9);
@@ -219,7 +219,7 @@ TEST_F(LooksFromAbove, ShareTheStampWithAllThatStandsStill) {
 /// does within a spell. What no spell follows stays.
 TEST_F(LooksFromAbove, LeaveToTheSwayMostOfWhatLasts) {
   repetition_.of_interpolation = 7.0;
-  view_.vehicle.sigma_turn_rad = 0.02;
+  view_.turn.sigma_rad = 0.02;
   view_.vehicle.sigma_position_m = 0.3;
   const std::vector<LocatedDetection> detections{located(0.0, 0.0), located(0.0, 5.0)};
   const Look at_first = make(detections).at_rest[0];
@@ -384,9 +384,7 @@ class LooksAtKnownObjects : public LooksFromAbove {
         Eigen::AngleAxisd(0.5, Eigen::Vector3d(0.9, -0.3, 0.2).normalized()) * view_.enu_from_camera.rotation;
     view_.enu_from_camera.translation = {2.0, -1.0, kPlane_m + kUp_m};
     view_.vehicle.velocity_in_enu = {3.0, 4.0, 1.2};
-    view_.vehicle.enu_from_body.rotation =
-        Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.1, 0.2, 1.0).normalized());
-    view_.vehicle.angular_velocity_in_body = {0.1, -0.2, 0.4};
+    view_.turn.rate_in_enu = {0.3, -0.1, 0.4};
     errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.8, 0.7, -0.4;
     drift_.head<2>() << 0.2, 0.3;
   }
@@ -402,8 +400,7 @@ class LooksAtKnownObjects : public LooksFromAbove {
     const VehicleState& vehicle = view_.vehicle;
     const double late_s = truth.calibration[CalibrationIndex::kLatency] - view_.latency_s;
     const Eigen::Vector3d turned_in_enu =
-        -late_s * (vehicle.enu_from_body.rotation * vehicle.angular_velocity_in_body) -
-        truth.drift[3] * Eigen::Vector3d::UnitZ();
+        -late_s * view_.turn.rate_in_enu - truth.drift[3] * Eigen::Vector3d::UnitZ();
     const Eigen::Vector3d turned_in_camera = truth.calibration.head<3>() - errors_.calibration.mean.head<3>();
     Rigid3d camera = view_.enu_from_camera;
     camera.rotation = turn(turned_in_enu) * camera.rotation * turn(turned_in_camera);

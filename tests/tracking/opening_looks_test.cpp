@@ -70,8 +70,13 @@ class OpeningFrames : public ::testing::Test {
     const FrameStamp stamp = stamp_at(time_s);
     const auto vehicle = state.at(stamp.captured_at - from_seconds(latency_s));
     if (!vehicle) return std::nullopt;
-    return FrameView{*vehicle, enu_from_camera(*vehicle, mount_, CameraOrientation::kComposed),
-                     stamp.captured_at_host, 0.0, latency_s};
+    return FrameView{*vehicle,
+                     enu_from_camera(*vehicle, mount_, CameraOrientation::kComposed),
+                     stamp.captured_at_host,
+                     0.0,
+                     latency_s,
+                     0.0,
+                     turn_of(*vehicle)};
   }
 
   /// Located with the calibration as it is now; nullopt where the vehicle's state was never known then.

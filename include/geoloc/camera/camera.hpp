@@ -27,9 +27,15 @@ struct CameraIntrinsics {
   static CameraIntrinsics from_field_of_view(int width_px, int height_px, double horizontal_fov_deg);
 };
 
-/// The camera in the vehicle: yaw, pitch, roll turn a camera that looks forward with its top up; looking
-/// straight down with the image top towards the nose is pitch = -90. The lever arm is in the body,
-/// forward-right-down.
+/// What carries the camera.
+enum class MountKind {
+  kFixed,  ///< the vehicle's body
+  kGimbal  ///< a gimbal that reports how it holds the camera (GimbalSample)
+};
+
+/// The camera in its carrier: yaw, pitch, roll turn a camera that looks forward with its top up; looking
+/// straight down with the image top towards the nose is pitch = -90 on a body, and 0 on a gimbal that says
+/// so. The lever arm is in the body, forward-right-down, of a gimbal's camera too.
 struct CameraMount {
   double roll_deg = 0.0;
   double pitch_deg = -90.0;
@@ -37,6 +43,10 @@ struct CameraMount {
   double x_m = 0.0;
   double y_m = 0.0;
   double z_m = 0.0;
+  MountKind kind = MountKind::kFixed;
+
+  /// Of a camera that looks where its gimbal says.
+  static CameraMount on_gimbal();
 };
 
 enum class CameraOrientation {
@@ -53,7 +63,8 @@ struct CameraConfig {
   std::vector<std::string> problems() const;
 };
 
-/// Pose of the camera (right-down-forward) in the body (forward-right-down).
+/// Pose of the camera (right-down-forward) in the body (forward-right-down); of one on a gimbal, where that
+/// holds it along the body's axes.
 Rigid3d body_from_camera(const CameraMount& mount);
 
 /// Rotation of a camera that looks along the body's forward axis with its top up.

@@ -17,9 +17,10 @@ enum class FrameFate {
   kOutOfOrder,       ///< no later than a frame that was located before
   kClockBegunAnew,   ///< the vehicle's clock began anew, or stepped, while the frame waited
   kNoRoom,           ///< too many waited, and nobody called process_next()
-  kUnusableMount     ///< its mount cannot be
+  kUnusableMount,    ///< its mount cannot be
+  kNoGimbal          ///< its camera is on a gimbal, and no angles of that have come
 };
-inline constexpr std::size_t kFrameFates = 9;
+inline constexpr std::size_t kFrameFates = 10;
 
 /// A sentence for a log: what became of the frame and, where it was not located, what would change that.
 const char* explain(FrameFate fate);

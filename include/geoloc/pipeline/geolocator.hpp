@@ -37,6 +37,7 @@ class Geolocator {
     std::array<std::uint64_t, kFrameFates> frames_by_fate{};  ///< by FrameFate
     std::uint64_t detections = 0;                             ///< in located frames
     std::uint64_t detections_dropped = 0;  ///< beyond max_detections, or with numbers that cannot be
+    std::uint64_t maps_void = 0;           ///< objects begun anew, since a gimbal's yaw was misread
     std::uint64_t ranges = 0;              ///< a rangefinder's readings that were taken in
     std::uint64_t detections_at_edge = 0;  ///< not used: cut by the image's edge, perhaps
     std::array<std::uint64_t, kNoFixReasons> no_fix{};  ///< detections without a ground point, by NoFix
@@ -53,9 +54,14 @@ class Geolocator {
   void add(const PositionSample& sample);
   void add(const RangeSample& sample);
 
-  /// A frame waits, at least until there are attitudes and positions from beyond its time; process_next()
-  /// then locates it. Frames may be added in any order while they wait. At most 64 do: beyond, the latest one
-  /// goes, and is returned.
+  /// Used where the camera's mount is of kind gimbal. Where turns of the vehicle show that yaws count from
+  /// the nose instead of north, or the other way round, the objects so far are void and begin anew
+  /// (counters().maps_void), and frames from then on are located by the right one.
+  void add(const GimbalSample& sample);
+
+  /// A frame waits, at least until there are attitudes and positions from beyond its time, and the gimbal's
+  /// angles where the camera is on one; process_next() then locates it. Frames may be added in any order
+  /// while they wait. At most 64 do: beyond, the latest one goes, and is returned.
   std::optional<FrameOutcome> add(const FrameDetections& frame);
 
   /// Locates the next frame that waits no longer, and refines the objects with it: to be called until it

@@ -60,6 +60,14 @@ struct FrameStamp {
   std::optional<CameraMount> mount = std::nullopt;  ///< where it is not the configured one
 };
 
+/// How the camera turns at a frame, and how well it is known how it was turned.
+struct CameraTurn {
+  Eigen::Vector3d rate_in_enu = Eigen::Vector3d::Zero();  ///< [rad/s]
+  double sigma_rad = 0.0;       ///< that interpolation, or a gimbal's feedback, adds about each axis
+  double sigma_bend_rad = 0.0;  ///< besides, where a turn may begin or end in between
+  Duration telemetry_gap{};     ///< between the samples around: what interpolation is off by lasts so long
+};
+
 /// From where a frame was seen.
 struct FrameView {
   VehicleState vehicle;  ///< at the instant that the frame is taken to show
@@ -70,6 +78,7 @@ struct FrameView {
   double latency_s = 0.0;  ///< the vehicle's state is that of so long before the frame's stamp
   /// What lies in the projector's plane: the ground below the vehicle, so high above the level ground.
   double terrain_m = 0.0;
+  CameraTurn turn;
 };
 
 }  // namespace geoloc

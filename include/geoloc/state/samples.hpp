@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 
 #include "geoloc/geometry/attitude.hpp"
@@ -28,6 +29,24 @@ struct PositionSample {
   std::optional<double> height_msl_m;
   std::optional<double> sigma_horizontal_m;  ///< 1-sigma that the receiver claims, where it does
   std::optional<Eigen::Vector3d> velocity_in_enu = std::nullopt;  ///< [m/s], where it tells it
+};
+
+/// What a gimbal's yaw counts from.
+enum class GimbalYaw {
+  kFromNose,  ///< from where the vehicle's nose points
+  kFromNorth
+};
+
+/// How a gimbal holds its camera, as it reports it. Roll and pitch are against the horizon: what of the
+/// vehicle's tilt the gimbal takes out does not pass through the body.
+struct GimbalSample {
+  VehicleTime time;
+  /// From the gimbal's axes (forward, right, down) to level ones: x to the nose or to the north, z down.
+  Eigen::Quaterniond level_from_gimbal = Eigen::Quaterniond::Identity();
+  GimbalYaw yaw = GimbalYaw::kFromNose;
+  /// Whether it says that it holds a direction over ground, or turns with the vehicle; nullopt: it does not
+  /// say.
+  std::optional<bool> holds_direction = std::nullopt;
 };
 
 /// The distance to the ground that a rangefinder looking down the body's axis measures.

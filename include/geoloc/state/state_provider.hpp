@@ -7,11 +7,13 @@
 
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/state/boot_clock_monitor.hpp"
+#include "geoloc/state/gimbal_history.hpp"
 #include "geoloc/state/home_datum.hpp"
 #include "geoloc/state/samples.hpp"
 #include "geoloc/state/state_buffer.hpp"
 #include "geoloc/state/step_watch.hpp"
 #include "geoloc/state/vehicle_state.hpp"
+#include "geoloc/state/with_steps.hpp"
 
 namespace geoloc {
 
@@ -29,13 +31,6 @@ struct Interpolator<LocalPosition> {
   }
 };
 
-/// A sample with the steps of its own quantity up to it.
-template <typename T>
-struct WithSteps {
-  T value;
-  StateSteps steps;
-};
-
 /// Interpolates the asynchronous position and attitude of the vehicle (paper, section 3.2). The local frame's
 /// origin is the first position. Where the next one lies farther from it than any vehicle goes in the time
 /// between, one of the two is false: the frame begins anew, until two agree. A reboot of the vehicle empties
@@ -48,9 +43,10 @@ class StateProvider {
   struct Counters {
     std::uint64_t attitudes = 0;       ///< taken in
     std::uint64_t positions = 0;       ///< taken in
+    std::uint64_t gimbals = 0;         ///< taken in
     std::uint64_t duplicates = 0;      ///< same time as a sample before
     std::uint64_t stale = 0;           ///< older than all that is kept, or late where the state steps
-    std::uint64_t invalid = 0;         ///< not finite, or no place on Earth
+    std::uint64_t invalid = 0;         ///< not finite, no place on Earth, or no rotation
     std::uint64_t out_of_range = 0;    ///< angles that no attitude has: degrees in place of radians, perhaps
     std::uint64_t too_far = 0;         ///< beyond the reach of one local frame
     std::uint64_t unconfirmed = 0;     ///< at the start, with which the next one did not agree
@@ -68,13 +64,20 @@ class StateProvider {
 
   void add(const AttitudeSample& sample);
   void add(const PositionSample& sample);
+  void add(const GimbalSample& sample);
 
   Expected<VehicleState, NoState> at(VehicleTime time) const;
+
+  /// How the gimbal held its camera at the state's time.
+  Expected<GimbalState, NoState> gimbal_at(const VehicleState& vehicle) const;
 
   /// Whether both quantities have samples from beyond that time: later ones do not change at() any more.
   bool is_settled(VehicleTime time) const {
     return positions_.reaches_beyond(time) && attitudes_.reaches_beyond(time);
   }
+
+  /// The gimbal's samples, and what was noticed of them.
+  const GimbalHistory& gimbal() const { return gimbal_; }
 
   /// Rises where the vehicle's clock begins anew or steps: what times of before meant is not known since.
   std::uint64_t clock_epoch() const { return counters_.reboots + counters_.clock_steps; }
@@ -130,6 +133,7 @@ class StateProvider {
   void take(const PositionSample& sample);
   Expected<Brackets, NoState> brackets(VehicleTime time) const;
   void forget_samples();
+  void compare_with_vehicle(const GimbalSample& gimbal);
 
   StateConfig config_;
   std::optional<LocalFrame> frame_;
@@ -141,6 +145,9 @@ class StateProvider {
   StepWatch watch_;
   StateBuffer<WithSteps<EulerAngles>> attitudes_;
   StateBuffer<WithSteps<LocalPosition>> positions_;
+  GimbalHistory gimbal_;
+  std::optional<GimbalSample>
+      newest_gimbal_;  // to be compared once the vehicle's attitude around it is known
   StateSteps anchor_;
   std::optional<double> sigma_horizontal_m_;
   BootClockMonitor boot_clock_;

@@ -36,6 +36,13 @@ void apply_field_of_view(const nlohmann::json& object, const std::string& path, 
   camera.intrinsics.distortion = distortion;
 }
 
+/// Angles of a camera fixed to the body mean nothing on a gimbal: one that was not on it begins at 0.
+void begin_on_gimbal(const nlohmann::json& mount_object, CameraMount& mount) {
+  const bool is_on_gimbal =
+      mount_object.is_object() && mount_object.value("kind", nlohmann::json()) == name_of(MountKind::kGimbal);
+  if (is_on_gimbal && mount.kind != MountKind::kGimbal) mount = CameraMount::on_gimbal();
+}
+
 }  // namespace
 
 nlohmann::ordered_json camera_to_json(const CameraConfig& camera) {
@@ -48,6 +55,7 @@ nlohmann::ordered_json mount_to_json(const CameraMount& mount) {
 
 void mount_from_json(const nlohmann::json& object, const std::string& path, CameraMount& mount,
                      std::vector<std::string>& problems) {
+  begin_on_gimbal(object, mount);
   FieldReader reader(object, path, problems);
   visit_fields(reader, mount);
 }
@@ -57,6 +65,7 @@ void camera_from_json(const nlohmann::json& object, const std::string& path, boo
   nlohmann::json numbers = object;
   const bool has_field_of_view = object.is_object() && object.contains(kFieldOfView);
   if (has_field_of_view) numbers.erase(kFieldOfView);
+  if (numbers.is_object() && numbers.contains("mount")) begin_on_gimbal(numbers["mount"], camera.mount);
   FieldReader reader(numbers, path, problems);
   visit_fields(reader, camera);
   if (strict) reader.refuse_unknown();

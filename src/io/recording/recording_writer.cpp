@@ -61,13 +61,20 @@ std::int64_t microseconds(HostTime time) {
   return std::chrono::floor<std::chrono::microseconds>(time.time_since_epoch()).count();
 }
 
+/// A frame's own mount is one on the body, unless it says otherwise: every line would repeat it.
+nlohmann::ordered_json own_mount_to_json(const CameraMount& mount) {
+  nlohmann::ordered_json object = mount_to_json(mount);
+  if (mount.kind == MountKind::kFixed) object.erase("kind");
+  return object;
+}
+
 nlohmann::ordered_json to_json(const RecordedFrame& frame) {
   auto detections = nlohmann::ordered_json::array();
   for (const Detection& detection : frame.detections) detections.push_back(detection_to_json(detection));
   nlohmann::ordered_json line{{"time_us", microseconds(frame.captured_at)}};
   if (frame.time_sigma_s > 0.0) line["time_sigma_s"] = frame.time_sigma_s;
   if (!frame.time_quality.empty()) line["time_quality"] = frame.time_quality;
-  if (frame.mount) line["mount"] = mount_to_json(*frame.mount);
+  if (frame.mount) line["mount"] = own_mount_to_json(*frame.mount);
   line["detections"] = std::move(detections);
   if (frame.telemetry_records) line["telemetry_records"] = *frame.telemetry_records;
   return line;
