@@ -39,6 +39,10 @@ class DistrustfulSink : public io::TelemetrySink {
   void on_range(const RangeSample& sample) override {
     require(sample.distance_m > 0.0 && std::isfinite(sample.distance_m));
   }
+  void on_gimbal(const GimbalSample& sample) override {
+    require(std::abs(sample.level_from_gimbal.norm() - 1.0) < 1e-6);
+    require(sample.time.time_since_epoch() < std::chrono::hours{24 * 366 * 100});
+  }
   void on_reboot() override {}
   void on_clock_step(Duration) override {}
   void on_frame(HostTime, const std::uint8_t* frame, std::size_t size) override {
@@ -49,8 +53,18 @@ class DistrustfulSink : public io::TelemetrySink {
 using Bytes = std::vector<std::uint8_t>;
 
 /// A MAVLink 2 frame of the vehicle with the right checksum, which mutations seldom find by themselves.
-Bytes checksummed_frame(std::uint8_t message_id, const std::uint8_t* payload, std::size_t size) {
-  const std::uint8_t header[] = {0xFD, static_cast<std::uint8_t>(size), 0, 0, 0, 1, 1, message_id, 0, 0};
+Bytes checksummed_frame(std::uint16_t message_id, const std::uint8_t* payload, std::size_t size,
+                        std::uint8_t component = 1) {
+  const std::uint8_t header[] = {0xFD,
+                                 static_cast<std::uint8_t>(size),
+                                 0,
+                                 0,
+                                 0,
+                                 1,
+                                 component,
+                                 static_cast<std::uint8_t>(message_id),
+                                 static_cast<std::uint8_t>(message_id >> 8U),
+                                 0};
   Bytes frame(std::size(header) + size);
   std::copy_n(payload, size, std::copy(std::begin(header), std::end(header), frame.begin()));
   Bytes covered(frame.begin() + 1, frame.end());
@@ -67,12 +81,14 @@ Bytes checksummed_frame(std::uint8_t message_id, const std::uint8_t* payload, st
 
 /// Reads the input as a list of messages (which one, payload size, payload) and frames them.
 Bytes framed(const std::uint8_t* data, std::size_t size) {
-  constexpr std::uint8_t kDecoded[] = {0, 2, 24, 30, 31, 33, 76, 77, 111, 193, 230};
+  constexpr std::uint16_t kDecoded[] = {0, 2, 24, 30, 31, 33, 76, 77, 111, 158, 193, 230, 265, 285};
+  constexpr std::uint8_t kGimbal = 154;
   Bytes stream = checksummed_frame(0, reinterpret_cast<const std::uint8_t*>("\0\0\0\0\2\3\0\4\3"), 9);
   for (std::size_t at = 0; at + 2 <= size;) {
-    const std::uint8_t message_id = kDecoded[data[at] % std::size(kDecoded)];
+    const std::uint16_t message_id = kDecoded[data[at] % std::size(kDecoded)];
+    const std::uint8_t component = data[at] >= 0x80 && message_id >= 158 ? kGimbal : 1;
     const std::size_t payload_size = std::min<std::size_t>(data[at + 1], size - at - 2);
-    const Bytes frame = checksummed_frame(message_id, data + at + 2, payload_size);
+    const Bytes frame = checksummed_frame(message_id, data + at + 2, payload_size, component);
     stream.insert(stream.end(), frame.begin(), frame.end());
     at += 2 + payload_size;
   }

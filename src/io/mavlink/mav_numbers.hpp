@@ -8,6 +8,9 @@
 namespace geoloc::io {
 
 inline constexpr std::uint8_t kAutopilotComponent = 1;
+inline constexpr std::uint8_t kFirstGimbalComponent = 154;
+inline constexpr std::uint8_t kSecondGimbalComponent = 171;  // to the sixth they are in a row
+inline constexpr std::uint8_t kLastGimbalComponent = 175;
 
 inline constexpr std::uint16_t kSetMessageInterval = 511;
 inline constexpr std::uint16_t kRequestMessage = 512;

@@ -17,6 +17,14 @@ void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
   v.field("position_rate_hz", mavlink.position_rate_hz, kRate, "Hz", "Rate at which positions are requested");
   v.field("rangefinder_rate_hz", mavlink.rangefinder_rate_hz, Range::closed(0, 50), "Hz",
           "Rate at which DISTANCE_SENSOR is requested; 0: it is not, but used where it comes");
+  v.field(
+      "gimbal_rate_hz", mavlink.gimbal_rate_hz, Range::closed(0, 50), "Hz",
+      "Rate at which the gimbal's angles are requested where camera.mount.kind is gimbal; 0: they are not, "
+      "but used where they come");
+  v.field(
+      "gimbal", mavlink.gimbal, Range::closed(0, 255), "",
+      "The camera's gimbal: 1 to 6 of those that the autopilot drives, or its component (154, 171 to 175); "
+      "0: the first one heard");
   v.field("link_timeout_s", mavlink.link_timeout_s, Range::closed(0.5, 60), "s",
           "After this silence everything is requested anew");
   v.field("signing_key_file", mavlink.signing_key_file, Any{}, "",

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <limits>
 
+#include "geoloc/geometry/angles.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -35,6 +37,12 @@ Message decode_heartbeat(const Frame& frame) {
   return Heartbeat{fields.type, fields.autopilot};
 }
 
+/// False for NaN.
+bool is_unit(const Eigen::Quaterniond& q) {
+  constexpr double kTolerance = 0.01;
+  return std::abs(q.norm() - 1.0) <= kTolerance;
+}
+
 /// `fields` tell the rates about the body's axes in the same names in both messages.
 template <typename Fields>
 Message attitude_message(const Fields& fields, const EulerAngles& angles, bool from_quaternion) {
@@ -54,8 +62,7 @@ Message decode_attitude(const Frame& frame) {
 Message decode_attitude_quaternion(const Frame& frame) {
   const auto fields = unpack(frame, mavlink_msg_attitude_quaternion_decode);
   const Eigen::Quaterniond ned_from_body(fields.q1, fields.q2, fields.q3, fields.q4);
-  constexpr double kNormTolerance = 0.01;
-  if (!(std::abs(ned_from_body.norm() - 1.0) <= kNormTolerance)) return RefusedValues{};
+  if (!is_unit(ned_from_body)) return RefusedValues{};
   return attitude_message(fields, euler_angles(ned_from_body.normalized()), true);
 }
 
@@ -91,6 +98,61 @@ Message decode_rangefinder(const Frame& frame) {
   if (!(std::abs(distance_m) <= kLargestHeight_m)) return RefusedValues{};
   if (!(distance_m > 0.0)) return NotDecoded{};  // out of range
   return RangeMessage{std::nullopt, distance_m};
+}
+
+/// What the yaw counts from, of two flags or, where neither or both are set, by whether it is locked to north
+/// (the specification of GIMBAL_DEVICE_FLAGS_YAW_LOCK).
+GimbalYaw yaw_origin(std::uint16_t flags) {
+  const bool is_from_nose = (flags & GIMBAL_DEVICE_FLAGS_YAW_IN_VEHICLE_FRAME) != 0;
+  const bool is_from_north = (flags & GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME) != 0;
+  if (is_from_nose != is_from_north) return is_from_north ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose;
+  return (flags & GIMBAL_DEVICE_FLAGS_YAW_LOCK) != 0 ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose;
+}
+
+Message decode_gimbal_device(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_gimbal_device_attitude_status_decode);
+  GimbalMessage message;
+  message.sample.time = boot_time(fields.time_boot_ms);
+  message.sample.level_from_gimbal = Eigen::Quaterniond(fields.q[0], fields.q[1], fields.q[2], fields.q[3]);
+  if (!is_unit(message.sample.level_from_gimbal)) return RefusedValues{};
+  message.sample.level_from_gimbal.normalize();
+  message.sample.yaw = yaw_origin(fields.flags);
+  message.sample.holds_direction = (fields.flags & GIMBAL_DEVICE_FLAGS_YAW_LOCK) != 0;
+  message.source = GimbalSource::kDeviceStatus;
+  message.has_time = true;
+  message.device_id = fields.gimbal_device_id;
+  message.failure_flags = fields.failure_flags;
+  return message;
+}
+
+/// Angles in degrees; a turn more or less is the same.
+Message gimbal_message(GimbalMessage message, double roll_deg, double pitch_deg, double yaw_deg) {
+  constexpr double kMost_deg = 360.01;
+  for (const double angle_deg : {roll_deg, pitch_deg, yaw_deg}) {
+    if (!(std::abs(angle_deg) <= kMost_deg)) return RefusedValues{};
+  }
+  message.sample.level_from_gimbal =
+      ned_from_body({roll_deg * kRadPerDeg, pitch_deg * kRadPerDeg, yaw_deg * kRadPerDeg});
+  return message;
+}
+
+/// Its yaw from north is used where the one from the nose is not known.
+Message decode_mount_orientation(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_mount_orientation_decode);
+  const bool is_from_nose = std::isfinite(fields.yaw);
+  GimbalMessage message;
+  message.sample.time = boot_time(fields.time_boot_ms);
+  message.sample.yaw = is_from_nose ? GimbalYaw::kFromNose : GimbalYaw::kFromNorth;
+  message.source = GimbalSource::kMountOrientation;
+  message.has_time = true;
+  return gimbal_message(message, fields.roll, fields.pitch, is_from_nose ? fields.yaw : fields.yaw_absolute);
+}
+
+Message decode_mount_status(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_mount_status_decode);
+  constexpr double kUnitsPerDegree = 100.0;
+  return gimbal_message({}, fields.pointing_b / kUnitsPerDegree, fields.pointing_a / kUnitsPerDegree,
+                        fields.pointing_c / kUnitsPerDegree);
 }
 
 Message decode_gnss_status(const Frame& frame) {
@@ -154,6 +216,12 @@ Message decode(const Frame& frame) {
       return decode_distance_sensor(frame);
     case MAVLINK_MSG_ID_RANGEFINDER:
       return decode_rangefinder(frame);
+    case MAVLINK_MSG_ID_GIMBAL_DEVICE_ATTITUDE_STATUS:
+      return decode_gimbal_device(frame);
+    case MAVLINK_MSG_ID_MOUNT_ORIENTATION:
+      return decode_mount_orientation(frame);
+    case MAVLINK_MSG_ID_MOUNT_STATUS:
+      return decode_mount_status(frame);
     case MAVLINK_MSG_ID_GPS_RAW_INT:
       return decode_gnss_status(frame);
     case MAVLINK_MSG_ID_EKF_STATUS_REPORT:

@@ -28,6 +28,7 @@ constexpr Duration kRangeSilence = 2s;
 std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot) {
   constexpr std::uint32_t kSystemTime = 2, kGpsRawInt = 24, kAttitude = 30, kGlobalPositionInt = 33;
   constexpr std::uint32_t kDistanceSensor = 132, kEkfStatusReport = 193, kEstimatorStatus = 230;
+  constexpr std::uint32_t kMountOrientation = 265, kGimbalDeviceAttitudeStatus = 285;
   constexpr std::uint8_t kNone = 0, kExtendedStatus = 2, kPosition = 6, kExtra1 = 10, kExtra3 = 12;
   std::vector<WantedStream> streams{{kAttitude, config.attitude_rate_hz, kExtra1},
                                     {kGlobalPositionInt, config.position_rate_hz, kPosition},
@@ -35,6 +36,10 @@ std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ar
                                     {kSystemTime, 1.0, kExtra3}};
   if (config.rangefinder_rate_hz > 0.0)
     streams.push_back({kDistanceSensor, config.rangefinder_rate_hz, kExtra3});
+  if (config.gimbal_rate_hz > 0.0) {
+    streams.push_back({kGimbalDeviceAttitudeStatus, config.gimbal_rate_hz, kNone});
+    streams.push_back({kMountOrientation, config.gimbal_rate_hz, kNone});
+  }
   if (is_ardupilot) streams.push_back({kEkfStatusReport, 2.0, kExtra3});
   if (!is_ardupilot) streams.push_back({kEstimatorStatus, 1.0, kNone});
   return streams;
@@ -51,7 +56,8 @@ void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
 
 }  // namespace
 
-VehicleLink::VehicleLink(const MavlinkConfig& config) : config_(config), choice_(config.system_id) {
+VehicleLink::VehicleLink(const MavlinkConfig& config)
+    : config_(config), choice_(config.system_id), gimbal_choice_(config.gimbal) {
   throw_if_any(config.problems());
 }
 
@@ -74,6 +80,11 @@ bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
   if (choice_.observe(frame, message, arrival.at)) begin_with_vehicle(arrival);
   if (frame.sender != choice_.vehicle()) {
     ++counts_.foreign_frames;
+    if (const auto* const gimbal = std::get_if<GimbalMessage>(&message);
+        gimbal && is_of_vehicle(frame.sender)) {
+      requests_.on_message(frame.message_id, arrival.at);
+      take_gimbal(frame.sender.component, *gimbal, arrival);
+    }
     return false;
   }
   ++counts_.vehicle_frames;
@@ -95,6 +106,8 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   last_position_.reset();
   last_refusal_.reset();
   last_stamped_range_.reset();
+  gimbal_choice_.restart();
+  last_gimbal_.reset();
   last_heard_ = arrival.at;
   fast_timesyncs_ = 0;
   requests_.want(wanted_streams(config_, choice_.is_ardupilot()), arrival.at);
@@ -190,6 +203,52 @@ void VehicleLink::handle(const RangeMessage& message, const Arrival& arrival) {
   arrival.sink.on_range({*time, message.distance_m});
 }
 
+/// Its stamps teach nothing of the vehicle's clock: what is made of the other messages must not depend on
+/// whether there is a gimbal.
+void VehicleLink::take_gimbal(std::uint8_t component, const GimbalMessage& message, const Arrival& arrival) {
+  if (!gimbal_choice_.takes(component, message, arrival.at)) {
+    ++counts_.other_gimbals;
+    return;
+  }
+  const auto time = gimbal_time(component, message, arrival.at);
+  if (!time) {
+    ++counts_.suspect_stamps;
+    return;
+  }
+  ++counts_.gimbals;
+  last_gimbal_ = arrival.at;
+  gimbal_meter_.add(arrival.at);
+  gimbal_failure_flags_ = message.failure_flags;
+  GimbalSample sample = message.sample;
+  sample.time = *time;
+  arrival.sink.on_gimbal(sample);
+}
+
+/// A component of its own has a boot clock of its own, which is known by the arrival of its messages. nullopt
+/// where the time cannot be.
+std::optional<VehicleTime> VehicleLink::gimbal_time(std::uint8_t component, const GimbalMessage& message,
+                                                    HostTime received_at) {
+  if (!message.has_time) return clock_.to_vehicle(received_at);
+  const VehicleTime stamp = message.sample.time;
+  if (component == kAutopilotComponent) {
+    if (!boot_clock_.is_near_newest(stamp) || clock_.is_early(stamp, received_at)) return std::nullopt;
+    return stamp;
+  }
+  switch (gimbal_boot_clock_.observe(stamp)) {
+    case BootClockMonitor::Verdict::kSuspect:
+      return std::nullopt;
+    case BootClockMonitor::Verdict::kRebooted:
+      gimbal_clock_.clear();
+      break;
+    case BootClockMonitor::Verdict::kAdvanced:
+      break;
+  }
+  gimbal_clock_.add(stamp, received_at);
+  const auto offset = gimbal_clock_.offset();
+  if (!offset) return std::nullopt;
+  return clock_.to_vehicle(HostTime{stamp.time_since_epoch() - *offset});
+}
+
 void VehicleLink::handle(const Timesync& message, const Arrival& arrival) {
   const std::int64_t mark = message.requester_ns % kNanosecondsPerStamp;
   if (message.vehicle_ns == 0 || mark != config_.component_id || !is_for_us(message.target)) {
@@ -272,6 +331,10 @@ bool VehicleLink::is_alive(HostTime now) const {
   return now - last_heard_ <= from_seconds(config_.link_timeout_s);
 }
 
+bool VehicleLink::is_of_vehicle(MavAddress sender) const {
+  return choice_.vehicle() && sender.system == choice_.vehicle()->system;
+}
+
 LinkStatus VehicleLink::status(HostTime now) const {
   LinkStatus status;
   status.vehicle = choice_.vehicle();
@@ -285,6 +348,11 @@ LinkStatus VehicleLink::status(HostTime now) const {
   status.position_rate_hz = position_meter_.rate_hz(now);
   status.since_attitude = since(last_attitude_, now);
   status.since_position = since(last_position_, now);
+  status.since_gimbal = since(last_gimbal_, now);
+  status.gimbal_rate_hz = gimbal_meter_.rate_hz(now);
+  status.gimbal = gimbal_choice_.device();
+  status.gimbal_source = gimbal_choice_.source();
+  status.gimbal_failure_flags = gimbal_failure_flags_;
   status.clock_source = clock_.source();
   status.clock_error_bound = clock_.error_bound();
   if (status.vehicle) status.lost_frames = parser_.sequences().lost(*status.vehicle);

@@ -8,6 +8,7 @@
 #include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/frame.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/io/mavlink/gimbal_choice.hpp"
 #include "geoloc/io/mavlink/position_gate.hpp"
 #include "geoloc/io/mavlink/stream_requests.hpp"
 
@@ -16,10 +17,13 @@ namespace geoloc::io {
 /// What became of the vehicle's messages.
 struct TelemetryCounts {
   std::uint64_t vehicle_frames = 0;
-  std::uint64_t foreign_frames = 0;    ///< of other senders, and all frames before a vehicle was heard
+  std::uint64_t foreign_frames =
+      0;  ///< of other senders, its gimbal among them, and all before a vehicle was heard
   std::uint64_t attitudes = 0;         ///< delivered
   std::uint64_t positions = 0;         ///< delivered
   std::uint64_t ranges = 0;            ///< of a rangefinder that looks down: delivered
+  std::uint64_t gimbals = 0;           ///< of the camera's gimbal: delivered
+  std::uint64_t other_gimbals = 0;     ///< of another one, or what is told better by another message
   std::uint64_t second_attitudes = 0;  ///< ATTITUDE_QUATERNION in addition to ATTITUDE: ignored
   std::uint64_t no_fix_positions = 0;  ///< of a vehicle that did not know its position: ignored
   std::uint64_t refused_values = 0;    ///< not finite, or out of range
@@ -41,6 +45,11 @@ struct LinkStatus {
   double position_rate_hz = 0.0;
   std::optional<Duration> since_attitude;  ///< nullopt before the first
   std::optional<Duration> since_position;
+  std::optional<Duration> since_gimbal;
+  double gimbal_rate_hz = 0.0;
+  std::optional<GimbalDevice> gimbal;      ///< the one that is listened to
+  GimbalSource gimbal_source{};            ///< what it tells its angles by
+  std::uint32_t gimbal_failure_flags = 0;  ///< GIMBAL_DEVICE_ERROR_FLAGS, of its last message
   VehicleClockMap::Source clock_source = VehicleClockMap::Source::kNone;
   std::optional<Duration> clock_error_bound;  ///< nullopt where only arrivals are known
   std::uint64_t lost_frames = 0;              ///< of the vehicle, by its sequence numbers

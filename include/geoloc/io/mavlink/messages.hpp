@@ -33,6 +33,22 @@ struct RangeMessage {
   double distance_m = 0.0;
 };
 
+/// Which message told a gimbal's angles; a later one tells more.
+enum class GimbalSource : std::uint8_t {
+  kMountStatus,       ///< MOUNT_STATUS: hundredths of degrees, without a time
+  kMountOrientation,  ///< MOUNT_ORIENTATION
+  kDeviceStatus       ///< GIMBAL_DEVICE_ATTITUDE_STATUS
+};
+
+/// A gimbal's angles.
+struct GimbalMessage {
+  GimbalSample sample;
+  GimbalSource source = GimbalSource::kMountStatus;
+  bool has_time = false;            ///< of its sender's boot clock; else the sample's time is nothing
+  std::uint8_t device_id = 0;       ///< 1 to 6: of the gimbals that an autopilot drives itself; 0: not stated
+  std::uint32_t failure_flags = 0;  ///< GIMBAL_DEVICE_ERROR_FLAGS
+};
+
 /// GPS_RAW_INT: the first receiver only. Its own position is not used: the autopilot's estimate is better.
 struct GnssStatus {
   std::uint8_t fix_type = 0;                 ///< GPS_FIX_TYPE: 3 and more have a position
@@ -78,8 +94,9 @@ struct NotDecoded {};
 /// A message with impossible values: not finite, or out of range.
 struct RefusedValues {};
 
-using Message = std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessage, PositionSample,
-                             RangeMessage, GnssStatus, EstimatorStatus, Timesync, SystemTime, CommandAck>;
+using Message =
+    std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessage, PositionSample, RangeMessage,
+                 GimbalMessage, GnssStatus, EstimatorStatus, Timesync, SystemTime, CommandAck>;
 
 /// Payloads that MAVLink 2 truncated are padded with zeros. Positions (GLOBAL_POSITION_INT) are passed on as
 /// they are: PositionGate judges whether the vehicle knew where it was.

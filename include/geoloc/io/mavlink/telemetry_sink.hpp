@@ -21,6 +21,9 @@ class TelemetrySink {
   /// A rangefinder's reading, which most sinks have no use for.
   virtual void on_range(const RangeSample&) {}
 
+  /// A gimbal's angles, for cameras that are on one.
+  virtual void on_gimbal(const GimbalSample&) {}
+
   /// The vehicle's clock was reset: times before and after it cannot be compared.
   virtual void on_reboot() = 0;
 

@@ -12,6 +12,7 @@
 #include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/commands.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/io/mavlink/gimbal_choice.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
@@ -49,6 +50,8 @@ class VehicleLink {
 
   const VehicleClockMap& clock() const { return clock_; }
   LinkStatus status(HostTime now) const;
+  /// GIMBAL_DEVICE_ERROR_FLAGS of the camera's gimbal, as it told last.
+  std::uint32_t gimbal_failures() const { return gimbal_failure_flags_; }
 
  private:
   /// Where and when a message came in.
@@ -69,11 +72,18 @@ class VehicleLink {
   void handle(const AttitudeMessage& message, const Arrival& arrival);
   void handle(const PositionSample& message, const Arrival& arrival);
   void handle(const RangeMessage& message, const Arrival& arrival);
+  void handle(const GimbalMessage& message, const Arrival& arrival) {
+    take_gimbal(choice_.vehicle()->component, message, arrival);
+  }
   void handle(const GnssStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
   void handle(const EstimatorStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
   void handle(const Timesync& message, const Arrival& arrival);
   void handle(const SystemTime& message, const Arrival& arrival) { accept_stamp(message.time, arrival); }
   void handle(const CommandAck& message, const Arrival& arrival);
+
+  void take_gimbal(std::uint8_t component, const GimbalMessage& message, const Arrival& arrival);
+  std::optional<VehicleTime> gimbal_time(std::uint8_t component, const GimbalMessage& message,
+                                         HostTime received_at);
 
   void ask_anew(HostTime now);
   void send_timesync(HostTime now, const Send& send);
@@ -81,6 +91,7 @@ class VehicleLink {
   void send_text(HostTime now, const Send& send);
   MavAddress self() const;
   bool is_for_us(MavAddress target) const;
+  bool is_of_vehicle(MavAddress sender) const;
   bool is_alive(HostTime now) const;
 
   MavlinkConfig config_;
@@ -96,6 +107,12 @@ class VehicleLink {
   std::optional<HostTime> last_position_;
   std::optional<PositionRefusal> last_refusal_;  // of a position, after the last one that was delivered
   std::optional<HostTime> last_stamped_range_;
+  GimbalChoice gimbal_choice_;
+  ArrivalOffset gimbal_clock_;  // of a gimbal that is a component of its own, against the host's
+  BootClockMonitor gimbal_boot_clock_;
+  std::optional<HostTime> last_gimbal_;
+  RateMeter gimbal_meter_;
+  std::uint32_t gimbal_failure_flags_ = 0;
   bool has_delivered_ = false;  // a sample of the present vehicle
   HostTime last_heard_{};
   bool is_v2_ = false;
