@@ -73,9 +73,9 @@ void tell_ignored(const Options& options, const nlohmann::json& document, nlohma
     ignored.push_back({section, "a replay takes frames and detections as they were recorded"});
     if (recorded.is_object() && recorded.contains(section)) before[section] = recorded[section];
   }
-  for (const char* setting :
-       {"component_id", "attitude_rate_hz", "position_rate_hz", "rangefinder_rate_hz", "link_timeout_s",
-        "signing_key_file", "signing_state_file", "camera", "camera_component_id", "status_text"})
+  for (const char* setting : {"component_id", "attitude_rate_hz", "position_rate_hz", "rangefinder_rate_hz",
+                              "gimbal_rate_hz", "link_timeout_s", "signing_key_file", "signing_state_file",
+                              "camera", "camera_component_id", "status_text"})
     ignored.push_back({std::string("mavlink.") + setting, kNoVehicle});
   for (const std::string& line : ignored_settings(document, before, ignored, options.config_file))
     std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());

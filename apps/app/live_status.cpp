@@ -47,7 +47,7 @@ io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& ses
   io::LiveStatus status;
   status.at = now;
   status.elapsed = now - started_at;
-  const LinkMessage telemetry = link_message(link, session.geolocator().state());
+  const LinkMessage telemetry = link_message(link, session.geolocator());
   const std::string refusal = refusal_message(run.guard(), now);
   status.link = telemetry.text + (refusal.empty() ? "" : "; ") + refusal;
   status.link_is_good = telemetry.is_good;

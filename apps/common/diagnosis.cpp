@@ -72,6 +72,8 @@ std::string why_without_state(NoState reason, const RunFacts& facts) {
                          facts.config.state.max_gap_s);
     case NoState::kNoSamples:
       return "they came before the vehicle's first attitude and position";
+    case NoState::kNoGimbal:
+      return kNoGimbalAngles;
   }
   return {};
 }
@@ -187,7 +189,7 @@ RunFacts facts_of(const Session& session) {
     facts.link_fault = "no telemetry came";
   } else {
     const io::LinkStatus link = session.link().status(facts.census.telemetry->last);
-    facts.link_fault = link_message(link, geolocator.state()).fault;
+    facts.link_fault = link_message(link, geolocator).fault;
   }
   for (const Track& track : geolocator.tracks()) {
     if (track.status == TrackStatus::kConfirmed) {

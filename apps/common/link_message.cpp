@@ -35,29 +35,45 @@ std::string no_position(const io::LinkStatus& link) {
   return comes;
 }
 
+bool is_on_gimbal(const Geolocator& geolocator) {
+  return geolocator.config().camera.mount.kind == MountKind::kGimbal;
+}
+
 /// Empty where frames can be located.
-std::string fault(const io::LinkStatus& link, const StateProvider& state) {
+std::string fault(const io::LinkStatus& link, const Geolocator& geolocator) {
   using Use = StateProvider::PositionUse;
+  const StateProvider& state = geolocator.state();
   if (is_silent(link.since_attitude)) return "no attitude comes";
   if (is_silent(link.since_position)) return no_position(link);
   if (state.position_use() == Use::kUnconfirmed) return "no two of its positions agree yet";
   if (state.position_use() == Use::kTooFar)
     return "its positions are more than 200 km from where the run began: a restart begins there";
+  if (is_on_gimbal(geolocator) && is_silent(link.since_gimbal))
+    return link.since_gimbal ? "no angles of the gimbal come any more" : kNoGimbalAngles;
   return {};
+}
+
+/// Of telemetry that comes.
+std::string comes(const io::LinkStatus& link, const Geolocator& geolocator) {
+  if (!is_on_gimbal(geolocator)) return "telemetry comes";
+  return fmt::format("telemetry comes, and the angles of gimbal {} ({:.0f}/s)", link.gimbal->number(),
+                     link.gimbal_rate_hz);
 }
 
 }  // namespace
 
-LinkMessage link_message(const io::LinkStatus& link, const StateProvider& state) {
+LinkMessage link_message(const io::LinkStatus& link, const Geolocator& geolocator) {
   if (!link.vehicle)
     return {"waiting for a vehicle: no MAVLink heartbeat of an autopilot yet" + of_another(link), false,
             "no MAVLink heartbeat of an autopilot came" + of_another(link)};
   const std::string vehicle = fmt::format("vehicle {}: ", link.vehicle->system);
-  const std::string what = fault(link, state);
+  const std::string what = fault(link, geolocator);
   if (what.empty() && link.has_gnss_glitch)
     return {
-        vehicle + "telemetry comes; its estimator reports a GNSS glitch: the position may be off", true, {}};
-  if (what.empty()) return {vehicle + "telemetry comes", true, {}};
+        vehicle + comes(link, geolocator) + "; its estimator reports a GNSS glitch: the position may be off",
+        true,
+        {}};
+  if (what.empty()) return {vehicle + comes(link, geolocator), true, {}};
   return {vehicle + what + "; frames cannot be located" + of_another(link), false,
           vehicle + what + of_another(link)};
 }

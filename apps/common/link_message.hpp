@@ -5,7 +5,7 @@
 
 #include "geoloc/io/mavlink/link_guard.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
-#include "geoloc/state/state_provider.hpp"
+#include "geoloc/pipeline/geolocator.hpp"
 
 namespace geoloc::apps {
 
@@ -16,8 +16,14 @@ struct LinkMessage {
   std::string fault;     ///< why they cannot, in short; empty where they can
 };
 
-/// `state`: what became of the telemetry in the estimator.
-LinkMessage link_message(const io::LinkStatus& link, const StateProvider& state);
+/// `geolocator`: what became of the telemetry, and whether its camera is on a gimbal.
+LinkMessage link_message(const io::LinkStatus& link, const Geolocator& geolocator);
+
+/// Why frames of a camera on a gimbal are not located that tells nothing, and what would change it.
+inline constexpr const char* kNoGimbalAngles =
+    "no angles of the gimbal come (GIMBAL_DEVICE_ATTITUDE_STATUS, MOUNT_ORIENTATION or MOUNT_STATUS): let "
+    "the "
+    "autopilot or the gimbal send them, or set camera.mount.kind to fixed";
 
 /// What was refused at the link's door within the last seconds; empty where nothing was.
 std::string refusal_message(const io::LinkGuard& guard, HostTime now);

@@ -13,7 +13,7 @@
 
 namespace geoloc::apps {
 
-inline constexpr std::size_t kNoStateReasons = 4;  ///< of NoState
+inline constexpr std::size_t kNoStateReasons = 5;  ///< of NoState
 
 struct HostTimeSpan {
   HostTime first;

@@ -5,6 +5,7 @@
 
 #include "common/clock_message.hpp"
 #include "common/diagnosis.hpp"
+#include "common/gimbal_news.hpp"
 #include "common/run_score.hpp"
 #include "common/state_news.hpp"
 #include "geoloc/io/output/object_report.hpp"
@@ -71,7 +72,7 @@ std::string remarks(const Session& session) {
   std::string lines;
   for (const std::string& news :
        {count_of_jumps(session.geolocator().state().counters()), count_of_turned(session.geolocator()),
-        clock_message(session), count_of_damaged(session)}) {
+        remark_on_gimbal(session.geolocator()), clock_message(session), count_of_damaged(session)}) {
     if (!news.empty()) lines += "\n" + news;
   }
   lines += unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());

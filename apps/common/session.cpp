@@ -24,11 +24,18 @@ bool has_object(const std::vector<Track>& tracks) {
                      [](const Track& track) { return track.status == TrackStatus::kConfirmed; });
 }
 
+/// No angles are asked for that nobody uses.
+io::MavlinkConfig link_config(const EstimationConfig& config) {
+  io::MavlinkConfig mavlink = config.mavlink;
+  if (config.geolocator.camera.mount.kind != MountKind::kGimbal) mavlink.gimbal_rate_hz = 0.0;
+  return mavlink;
+}
+
 }  // namespace
 
 Session::Session(const EstimationConfig& config, OnTelemetry on_telemetry)
     : max_frame_wait_(from_seconds(config.frames.max_wait_s)),
-      link_(config.mavlink),
+      link_(link_config(config)),
       geolocator_(config.geolocator),
       on_telemetry_(std::move(on_telemetry)) {}
 
@@ -48,6 +55,11 @@ void Session::on_position(const PositionSample& sample) {
     begin_anew();
 }
 
+void Session::on_gimbal(const GimbalSample& sample) {
+  geolocator_.add(sample);
+  news_.note_gimbal(geolocator_, link_.gimbal_failures());
+}
+
 /// Nothing that was estimated holds.
 void Session::begin_anew() {
   frames_without_vehicle_ += geolocator_.counters().frames;
@@ -65,7 +77,7 @@ bool Session::is_decided(HostTime captured_at) const {
   const auto vehicle_time = link_.clock().to_vehicle(captured_at);
   if (!vehicle_time) return false;
   const auto missing = geolocator_.missing_state(*vehicle_time);
-  return missing != NoState::kNotYet && missing != NoState::kNoSamples;
+  return missing != NoState::kNotYet && missing != NoState::kNoSamples && missing != NoState::kNoGimbal;
 }
 
 HostTime Session::gives_up_at(HostTime captured_at) const {

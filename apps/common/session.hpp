@@ -79,6 +79,7 @@ class Session final : private io::TelemetrySink {
   void on_attitude(const AttitudeSample& sample) override { take(sample); }
   void on_position(const PositionSample& sample) override;
   void on_range(const RangeSample& sample) override { geolocator_.add(sample); }
+  void on_gimbal(const GimbalSample& sample) override;
   void on_reboot() override { geolocator_.on_vehicle_reboot(); }
   void on_other_vehicle() override { begin_anew(); }
   void on_clock_step(Duration change) override;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/gimbal_news.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
 #include "geoloc/state/state_provider.hpp"
 
@@ -19,6 +20,11 @@ class StateNews {
   /// After each frame.
   void note_frame(const Geolocator& geolocator);
 
+  /// After each sample of a gimbal.
+  void note_gimbal(const Geolocator& geolocator, std::uint32_t failure_flags) {
+    gimbal_.note(geolocator, failure_flags, lines_);
+  }
+
   /// What is new since the last call.
   std::vector<std::string> take() { return std::exchange(lines_, {}); }
 
@@ -26,6 +32,7 @@ class StateNews {
   StateProvider::Counters told_;  // of what a line was told, and counts since
   StateSteps steps_;
   std::uint64_t told_turned_ = 0;
+  GimbalNews gimbal_;
   std::vector<std::string> lines_;
 };
 
