@@ -32,7 +32,7 @@ std::optional<CalibrationError> calibration_error(const Session& session, const 
   if (!estimated) return std::nullopt;
   const sim::TrueCamera camera = sim::make_true_camera(run, sim::run_seed(run, flight));
   const Eigen::AngleAxisd turn(body_from_camera(sim::nominal_camera(run).mount).rotation.conjugate() *
-                               camera.body_from_camera.rotation);
+                               camera.carrier_from_camera.rotation);
   const Eigen::Vector3d injected_rad = wrap_to_pi(turn.angle()) * turn.axis();
   using Index = CalibrationIndex;
   CalibrationError error;

@@ -20,7 +20,7 @@ int targets_in_view(const sim::Flight& flight, const sim::RecordingSettings& set
   const Duration period = from_seconds(1.0 / settings.run.frame_rate_hz);
   std::vector<int> frames(targets_in_enu.size(), 0);
   for (VehicleTime time = span.begin; time <= span.end; time += period) {
-    const Rigid3d camera_from_enu = (flight.truth.pose(time).value() * camera.body_from_camera).inverse();
+    const Rigid3d camera_from_enu = (flight.truth.pose(time).value() * camera.carrier_from_camera).inverse();
     for (std::size_t i = 0; i < targets_in_enu.size(); ++i) {
       if (frames[i] >= kEnough) continue;
       if (sim::disc_in_image(model, camera_from_enu, targets_in_enu[i], settings.detector)) ++frames[i];

@@ -40,9 +40,9 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kCameraGroup, "--frame-rate", settings.frame_rate_hz, "Frames a second")->capture_default_str();
   add(kCameraGroup, "--fov-deg", options.horizontal_fov_deg, "Horizontal field of view, deg")
       ->capture_default_str();
-  add(kCameraGroup, "--mount-pitch-deg", settings.camera.mount.pitch_deg,
-      "Nominal mount; -90 looks down, deg")
-      ->capture_default_str();
+  CLI::Option* const mount_pitch = add(kCameraGroup, "--mount-pitch-deg", settings.camera.mount.pitch_deg,
+                                       "Nominal mount; -90 looks down, deg")
+                                       ->capture_default_str();
   add(kCameraGroup, "--distortion", options.distortion, "True lens: k1 k2 p1 p2 k3 [none]");
   program
       .add_flag("--uncalibrated-lens", options.uncalibrated_lens, "Leave the distortion out of camera.json")
@@ -57,6 +57,7 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kHiddenInRecordingsGroup, "--late-start-s", errors.late_start_s,
       "Stamps of the first seconds are later by so much, s")
       ->capture_default_str();
+  add_gimbal_options(program, options.gimbal, mount_pitch);
   CLI::Option* const sigma = add(kHiddenGroup, "--mount-sigma-deg", errors.mount_sigma_deg,
                                  "1-sigma of the mounting error, per axis, deg")
                                  ->capture_default_str();
@@ -72,6 +73,7 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed) {
   if (!(fov_deg > 0.0 && fov_deg < 170.0)) throw std::invalid_argument("--fov-deg must lie in (0, 170)");
   settings.camera.intrinsics = CameraIntrinsics::from_field_of_view(1280, 720, fov_deg);
   settings.camera.intrinsics.distortion = options.distortion;
+  if (to_settings(options.gimbal)) settings.camera.mount = CameraMount::on_gimbal();
   settings.errors.lens_is_calibrated = !options.uncalibrated_lens;
   throw_if_any(settings.problems());
   return settings;
@@ -84,6 +86,12 @@ Flight load_flight(const RunOptions& options) {
   if (options.telemetry_rate_hz) flight = at_telemetry_rate(flight, *options.telemetry_rate_hz);
   if (!options.jump.empty()) flight = with_jump(flight, state_jump(options.jump, flight.truth));
   return flight;
+}
+
+Flight with_gimbal(Flight flight, const RunOptions& options, const RunSettings& settings) {
+  const auto gimbal = to_settings(options.gimbal);
+  if (!gimbal) return flight;
+  return with_gimbal(flight, *gimbal, run_seed(settings, flight));
 }
 
 }  // namespace geoloc::sim

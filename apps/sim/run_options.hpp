@@ -7,6 +7,7 @@
 
 #include "geoloc/sim/flight/flight.hpp"
 #include "geoloc/sim/flight/run_settings.hpp"
+#include "sim/gimbal_options.hpp"
 
 namespace geoloc::sim {
 
@@ -20,6 +21,7 @@ struct RunOptions {
   double horizontal_fov_deg = 70.0;
   std::array<double, 5> distortion{};
   bool uncalibrated_lens = false;
+  GimbalOptions gimbal;
   RunSettings settings;
 };
 
@@ -30,5 +32,8 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed);
 
 /// Throws std::runtime_error that says where flights were looked for, or which there are.
 Flight load_flight(const RunOptions& options);
+
+/// The flight with the gimbal that is asked for, and its errors by the run's seed.
+Flight with_gimbal(Flight flight, const RunOptions& options, const RunSettings& settings);
 
 }  // namespace geoloc::sim

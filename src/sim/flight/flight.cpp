@@ -34,6 +34,14 @@ std::string unknown_flight(const fs::path& folder, const std::string& name) {
 
 }  // namespace
 
+std::optional<Rigid3d> Flight::enu_from_camera(VehicleTime time, const Rigid3d& carrier_from_camera) const {
+  const auto enu_from_body = truth.pose(time);
+  if (!enu_from_body) return std::nullopt;
+  if (!gimbal) return *enu_from_body * carrier_from_camera;
+  return Rigid3d{(gimbal->enu_from_gimbal(time) * carrier_from_camera.rotation).normalized(),
+                 *enu_from_body * carrier_from_camera.translation};
+}
+
 Flight load_flight(const fs::path& folder, const std::string& name, const Site& site) {
   const std::vector<std::string> known = flight_names(folder);
   if (std::find(known.begin(), known.end(), name) == known.end()) {

@@ -47,15 +47,16 @@ std::vector<io::RecordedFrame> generate_frames(const Flight& flight, const Recor
   for (std::int64_t number = 0;; ++number) {
     const VehicleTime exposed_at =
         span.begin + from_seconds(static_cast<double>(number) / settings.run.frame_rate_hz);
-    const auto enu_from_body = exposed_at > span.end ? std::nullopt : flight.truth.pose(exposed_at);
-    if (!enu_from_body) break;
+    const auto enu_from_camera =
+        exposed_at > span.end ? std::nullopt : flight.enu_from_camera(exposed_at, camera.carrier_from_camera);
+    if (!enu_from_camera) break;
     const Duration delay = from_seconds(errors.latency_s + clock_error_s(errors, span, exposed_at) +
                                         errors.latency_jitter_s * timing.normal());
     HostTime stamp{std::chrono::round<std::chrono::microseconds>(
         (flight.host_time(exposed_at) + delay).time_since_epoch())};
     if (!frames.empty() && stamp < frames.back().captured_at - kMostDisorder) continue;
     if (!frames.empty()) stamp = std::max(stamp, frames.back().captured_at);
-    frames.push_back({stamp, detector.detect(*enu_from_body * camera.body_from_camera), std::nullopt});
+    frames.push_back({stamp, detector.detect(*enu_from_camera), std::nullopt});
   }
   return frames;
 }

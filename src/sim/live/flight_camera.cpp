@@ -51,7 +51,7 @@ FlightCamera::View FlightCamera::draw_view(HostTime stamp) {
 }
 
 Rigid3d FlightCamera::enu_from_camera(HostTime time) const {
-  return flight_.truth.pose(clock_.flight_time(time)).value() * true_camera_.body_from_camera;
+  return flight_.enu_from_camera(clock_.flight_time(time), true_camera_.carrier_from_camera).value();
 }
 
 }  // namespace geoloc::sim

@@ -90,6 +90,18 @@ void edit(mavlink_system_time_t& m, const Retelling& how) {
   if (m.time_unix_usec != 0) m.time_unix_usec = static_cast<std::uint64_t>(utc.count());
 }
 
+void edit(mavlink_gimbal_device_attitude_status_t& m, const Retelling& how) {
+  m.time_boot_ms = moved_ms(m.time_boot_ms, how);
+  m.angular_velocity_x = scaled(m.angular_velocity_x, how.speed);
+  m.angular_velocity_y = scaled(m.angular_velocity_y, how.speed);
+  m.angular_velocity_z = scaled(m.angular_velocity_z, how.speed);
+  m.delta_yaw_velocity = scaled(m.delta_yaw_velocity, how.speed);
+}
+
+void edit(mavlink_mount_orientation_t& m, const Retelling& how) {
+  m.time_boot_ms = moved_ms(m.time_boot_ms, how);
+}
+
 void edit(mavlink_home_position_t& m, const Retelling& how) {
   m.time_usec = moved_us(m.time_usec, how);
 }
@@ -181,6 +193,12 @@ Payload retell(const FrameView& recorded, const Retelling& how) {
       break;
     case MAVLINK_MSG_ID_SYSTEM_TIME:
       edit_as<mavlink_system_time_t>(payload, how);
+      break;
+    case MAVLINK_MSG_ID_GIMBAL_DEVICE_ATTITUDE_STATUS:
+      edit_as<mavlink_gimbal_device_attitude_status_t>(payload, how);
+      break;
+    case MAVLINK_MSG_ID_MOUNT_ORIENTATION:
+      edit_as<mavlink_mount_orientation_t>(payload, how);
       break;
     case MAVLINK_MSG_ID_HOME_POSITION:
       edit_as<mavlink_home_position_t>(payload, how);

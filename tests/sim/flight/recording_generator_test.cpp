@@ -185,7 +185,7 @@ TEST(TrueCamera, MountingErrorTurnsAboutTheBodysAxes) {
   const auto optical_axis_in_body = [](const std::array<double, 3>& error_deg) {
     RunSettings settings;
     settings.errors.mount_error_deg = error_deg;
-    return Eigen::Vector3d(make_true_camera(settings, 0).body_from_camera.rotation *
+    return Eigen::Vector3d(make_true_camera(settings, 0).carrier_from_camera.rotation *
                            Eigen::Vector3d::UnitZ());
   };
   const double sine = std::sin(2.0 * kRadPerDeg);

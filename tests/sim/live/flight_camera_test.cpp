@@ -50,7 +50,7 @@ TEST_P(AtSpeed, PoseIsTheTrueOneWithTheTrueMount) {
   const FlightCamera::View view = camera.draw_view(kReleased + std::chrono::seconds{5});
   const double flown_s = GetParam() * seconds(view.exposed_at - kReleased);
   const Rigid3d expected =
-      flight_.truth.pose(at(100.0 + flown_s)).value() * make_true_camera(settings_, 0).body_from_camera;
+      flight_.truth.pose(at(100.0 + flown_s)).value() * make_true_camera(settings_, 0).carrier_from_camera;
   EXPECT_LT((view.enu_from_camera.translation - expected.translation).norm(), 1e-6);
   EXPECT_LT(view.enu_from_camera.rotation.angularDistance(expected.rotation), 1e-6);
 }

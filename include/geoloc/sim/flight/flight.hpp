@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geoloc/io/recording/tlog.hpp"
+#include "geoloc/sim/flight/gimbal_trajectory.hpp"
 #include "geoloc/sim/flight/trajectory.hpp"
 
 namespace geoloc::sim {
@@ -18,6 +19,10 @@ struct Flight {
   io::Tlog telemetry;
   Trajectory truth;
   HostTime booted_at;  ///< on the clock of the log's stamps: when the vehicle's clock read zero
+  std::optional<GimbalTrajectory> gimbal = std::nullopt;  ///< what carries the camera; unset: the body
+
+  /// The camera's true pose, by that in the body or, on a gimbal, in its axes; nullopt outside the truth.
+  std::optional<Rigid3d> enu_from_camera(VehicleTime time, const Rigid3d& carrier_from_camera) const;
 
   HostTime host_time(VehicleTime time) const { return booted_at + time.time_since_epoch(); }
 };

@@ -15,7 +15,8 @@ enum class RandomStream : std::uint64_t {
   kClutter,
   kLink,
   kScene,
-  kRangefinder
+  kRangefinder,
+  kGimbal
 };
 
 /// Seed of one stream of a run (splitmix64): neighbouring seeds give unrelated streams.

@@ -48,8 +48,8 @@ struct RunSettings {
 /// The camera as it is.
 struct TrueCamera {
   CameraIntrinsics intrinsics;
-  Rigid3d body_from_camera;
-  Eigen::Vector3d mount_error_deg;  ///< turn about the body's forward, right and down axes
+  Rigid3d carrier_from_camera;      ///< of the body, or the gimbal
+  Eigen::Vector3d mount_error_deg;  ///< turn about the carrier's forward, right and down axes
 };
 
 /// Runs of one seed over different flights and scenarios share their targets but not their errors.
