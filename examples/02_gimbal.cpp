@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera on a gimbal: each frame tells how the camera was mounted when it was taken.
+// A camera on a gimbal, which reports ten times a second how it holds the camera.
 #include <geoloc/geoloc.hpp>
 
 #include <cmath>
@@ -24,13 +24,14 @@ geoloc::Rigid3d enu_from_body(geoloc::VehicleTime time, const geoloc::EulerAngle
           {0.0, kSpeed_mps * seconds_of(time), kHeight_m}};
 }
 
-/// What the gimbal reports: it looks ahead, between 30 and 70 degrees down.
-geoloc::CameraMount mount_at(geoloc::VehicleTime time) {
-  geoloc::CameraMount mount;
-  mount.pitch_deg = -50.0 + 20.0 * std::sin(seconds_of(time));
-  mount.x_m = 0.15;
-  mount.z_m = 0.05;
-  return mount;
+/// The gimbal looks ahead, between 30 and 70 degrees down.
+geoloc::EulerAngles gimbal_angles(geoloc::VehicleTime time) {
+  return {0.0, (-50.0 + 20.0 * std::sin(seconds_of(time))) * geoloc::kRadPerDeg, 0.0};
+}
+
+/// What it reports: roll and pitch are against the horizon, yaw from the nose or from north, as it says.
+geoloc::GimbalSample gimbal_sample(geoloc::VehicleTime time) {
+  return {time, geoloc::ned_from_body(gimbal_angles(time)), geoloc::GimbalYaw::kFromNose};
 }
 
 }  // namespace
@@ -38,6 +39,9 @@ geoloc::CameraMount mount_at(geoloc::VehicleTime time) {
 int main() {
   geoloc::GeolocatorConfig config;
   config.camera.intrinsics = geoloc::CameraIntrinsics::from_field_of_view(1920, 1080, 60.0);
+  config.camera.mount = geoloc::CameraMount::on_gimbal();
+  config.camera.mount.x_m = 0.15;  // where the camera is in the body
+  config.camera.mount.z_m = 0.05;
   config.projector.min_depression_deg = 15.0;  // what is seen at a flatter angle is not used
   geoloc::Geolocator geolocator(config);
   const geoloc::CameraModel camera(config.camera.intrinsics);
@@ -52,13 +56,15 @@ int main() {
       position.position = geoloc::LocalFrame(kHome).to_geodetic({0.0, kSpeed_mps * seconds_of(now)});
       position.height_above_home_m = kHeight_m;
       geolocator.add(position);
+      geolocator.add(gimbal_sample(now));
     }
     if (since_start % 100ms == 60ms) {
       geoloc::FrameDetections picture;
       picture.captured_at = now;
-      picture.mount = mount_at(now);
-      const geoloc::Rigid3d enu_from_camera =
-          enu_from_body(now, angles) * geoloc::body_from_camera(*picture.mount);
+      const geoloc::Rigid3d gimbal_from_camera = geoloc::body_from_camera(config.camera.mount);
+      const geoloc::Rigid3d enu_from_camera{
+          geoloc::enu_from_ned() * geoloc::ned_from_body(gimbal_angles(now)) * gimbal_from_camera.rotation,
+          enu_from_body(now, angles) * gimbal_from_camera.translation};
       const auto pixel = camera.pixel(enu_from_camera.inverse() * kObjectInEnu);
       if (pixel && camera.contains(*pixel, 30.0))
         picture.detections.push_back({{pixel->x() - 19.5, pixel->y() - 19.5, 40.0, 40.0}, 0.9, 0});

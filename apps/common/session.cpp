@@ -24,18 +24,11 @@ bool has_object(const std::vector<Track>& tracks) {
                      [](const Track& track) { return track.status == TrackStatus::kConfirmed; });
 }
 
-/// No angles are asked for that nobody uses.
-io::MavlinkConfig link_config(const EstimationConfig& config) {
-  io::MavlinkConfig mavlink = config.mavlink;
-  if (config.geolocator.camera.mount.kind != MountKind::kGimbal) mavlink.gimbal_rate_hz = 0.0;
-  return mavlink;
-}
-
 }  // namespace
 
 Session::Session(const EstimationConfig& config, OnTelemetry on_telemetry)
     : max_frame_wait_(from_seconds(config.frames.max_wait_s)),
-      link_(link_config(config)),
+      link_(config.mavlink, config.geolocator.camera.mount.kind == MountKind::kGimbal),
       geolocator_(config.geolocator),
       on_telemetry_(std::move(on_telemetry)) {}
 

@@ -77,7 +77,8 @@ TEST(Diagnosis, NamesTheSettingWhereNoFrameIsLocated) {
   const std::pair<NoState, const char*> words[] = {{NoState::kNotYet, "frames.max_wait_s (4 s)"},
                                                    {NoState::kTooOld, "before the telemetry that is kept"},
                                                    {NoState::kInAGap, "state.max_gap_s (3 s)"},
-                                                   {NoState::kNoSamples, "first attitude and position"}};
+                                                   {NoState::kNoSamples, "first attitude and position"},
+                                                   {NoState::kNoGimbal, "camera.mount.kind"}};
   for (const auto& [reason, setting] : words) {
     facts = run_without_state();
     facts.census.frames_without_state[static_cast<std::size_t>(reason)] = 100;

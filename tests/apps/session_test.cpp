@@ -51,9 +51,7 @@ class Hover {
 
   /// So many frames were located since the last call.
   int take_located() { return std::exchange(located_, 0); }
-  LinkMessage message() const {
-    return link_message(session.link().status(now_), session.geolocator().state());
-  }
+  LinkMessage message() const { return link_message(session.link().status(now_), session.geolocator()); }
 
   Session session{config_};
 

@@ -25,7 +25,7 @@ constexpr Duration kEulerSilence = 1s;
 /// For this long after a DISTANCE_SENSOR, RANGEFINDER adds nothing new.
 constexpr Duration kRangeSilence = 2s;
 
-std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot) {
+std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot, bool has_gimbal) {
   constexpr std::uint32_t kSystemTime = 2, kGpsRawInt = 24, kAttitude = 30, kGlobalPositionInt = 33;
   constexpr std::uint32_t kDistanceSensor = 132, kEkfStatusReport = 193, kEstimatorStatus = 230;
   constexpr std::uint32_t kMountOrientation = 265, kGimbalDeviceAttitudeStatus = 285;
@@ -36,7 +36,7 @@ std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ar
                                     {kSystemTime, 1.0, kExtra3}};
   if (config.rangefinder_rate_hz > 0.0)
     streams.push_back({kDistanceSensor, config.rangefinder_rate_hz, kExtra3});
-  if (config.gimbal_rate_hz > 0.0) {
+  if (has_gimbal && config.gimbal_rate_hz > 0.0) {
     streams.push_back({kGimbalDeviceAttitudeStatus, config.gimbal_rate_hz, kNone});
     streams.push_back({kMountOrientation, config.gimbal_rate_hz, kNone});
   }
@@ -56,8 +56,8 @@ void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
 
 }  // namespace
 
-VehicleLink::VehicleLink(const MavlinkConfig& config)
-    : config_(config), choice_(config.system_id), gimbal_choice_(config.gimbal) {
+VehicleLink::VehicleLink(const MavlinkConfig& config, bool has_gimbal)
+    : config_(config), has_gimbal_(has_gimbal), choice_(config.system_id), gimbal_choice_(config.gimbal) {
   throw_if_any(config.problems());
 }
 
@@ -110,7 +110,7 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   last_gimbal_.reset();
   last_heard_ = arrival.at;
   fast_timesyncs_ = 0;
-  requests_.want(wanted_streams(config_, choice_.is_ardupilot()), arrival.at);
+  requests_.want(wanted_streams(config_, choice_.is_ardupilot(), has_gimbal_), arrival.at);
   if (has_delivered_) arrival.sink.on_other_vehicle();
   has_delivered_ = false;
 }
@@ -206,7 +206,8 @@ void VehicleLink::handle(const RangeMessage& message, const Arrival& arrival) {
 /// Its stamps teach nothing of the vehicle's clock: what is made of the other messages must not depend on
 /// whether there is a gimbal.
 void VehicleLink::take_gimbal(std::uint8_t component, const GimbalMessage& message, const Arrival& arrival) {
-  if (!gimbal_choice_.takes(component, message, arrival.at)) {
+  GimbalChoice choice = gimbal_choice_;
+  if (!choice.takes(component, message, arrival.at)) {
     ++counts_.other_gimbals;
     return;
   }
@@ -215,6 +216,7 @@ void VehicleLink::take_gimbal(std::uint8_t component, const GimbalMessage& messa
     ++counts_.suspect_stamps;
     return;
   }
+  gimbal_choice_ = choice;
   ++counts_.gimbals;
   last_gimbal_ = arrival.at;
   gimbal_meter_.add(arrival.at);

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "support/temporary_folder.hpp"
@@ -107,6 +109,55 @@ TEST(CameraFile, NamesTheFileAndEveryFault) {
     EXPECT_NE(message.find("fx must be"), std::string::npos);
   }
   EXPECT_THROW(read_camera_file(folder.path() / "none.json"), std::runtime_error);
+}
+
+CameraConfig camera_of(const nlohmann::json& object, const CameraConfig& before = {}) {
+  CameraConfig camera = before;
+  std::vector<std::string> problems;
+  camera_from_json(object, "camera", true, camera, problems);
+  EXPECT_TRUE(problems.empty()) << problems.front();
+  return camera;
+}
+
+TEST(CameraMount, OnAGimbalLooksWhereThatSaysUnlessItsAnglesAreGiven) {
+  const CameraMount plain = camera_of({{"mount", {{"kind", "gimbal"}}}}).mount;
+  EXPECT_EQ(plain.kind, MountKind::kGimbal);
+  EXPECT_EQ(plain.pitch_deg, 0.0);
+  const CameraMount turned =
+      camera_of({{"mount", {{"kind", "gimbal"}, {"pitch_deg", 1.5}, {"x_m", 0.2}}}}).mount;
+  EXPECT_EQ(turned.pitch_deg, 1.5);
+  EXPECT_EQ(turned.x_m, 0.2);
+  const CameraMount fixed = camera_of({{"mount", {{"kind", "fixed"}}}}).mount;
+  EXPECT_EQ(fixed.pitch_deg, -90.0);
+}
+
+TEST(CameraMount, OnAGimbalIsReadOverAnotherFileWithWhatThatSaysOfIt) {
+  const CameraConfig first = camera_of({{"mount", {{"kind", "gimbal"}, {"roll_deg", 0.7}}}});
+  EXPECT_EQ(camera_of({{"mount", {{"kind", "gimbal"}, {"yaw_deg", 2.0}}}}, first).mount.roll_deg, 0.7);
+  CameraConfig oblique;
+  oblique.mount.pitch_deg = -45.0;
+  EXPECT_EQ(camera_of({{"mount", {{"kind", "gimbal"}}}}, oblique).mount.pitch_deg, 0.0)
+      << "angles in the body mean nothing in the gimbal";
+}
+
+TEST(CameraMount, IsWrittenSoThatItIsReadBack) {
+  CameraConfig camera;
+  camera.mount = CameraMount::on_gimbal();
+  camera.mount.yaw_deg = 3.0;
+  const CameraConfig again = camera_of(camera_to_json(camera));
+  EXPECT_EQ(again.mount.kind, MountKind::kGimbal);
+  EXPECT_EQ(again.mount.pitch_deg, 0.0);
+  EXPECT_EQ(again.mount.yaw_deg, 3.0);
+}
+
+TEST(CameraMount, OfAnUnknownKindIsRefused) {
+  for (const nlohmann::json& kind : {nlohmann::json("gymbal"), nlohmann::json(1), nlohmann::json()}) {
+    CameraConfig camera;
+    std::vector<std::string> problems;
+    camera_from_json({{"mount", {{"kind", kind}}}}, "camera", true, camera, problems);
+    ASSERT_EQ(problems.size(), 1U) << kind;
+    EXPECT_NE(problems[0].find("camera.mount.kind must be one of: fixed, gimbal"), std::string::npos);
+  }
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ class CollectingSink : public TelemetrySink {
   void on_attitude(const AttitudeSample& sample) override { attitudes.push_back(sample); }
   void on_position(const PositionSample& sample) override { positions.push_back(sample); }
   void on_range(const RangeSample& sample) override { ranges.push_back(sample); }
+  void on_gimbal(const GimbalSample& sample) override { gimbals.push_back(sample); }
   void on_reboot() override {
     attitudes_before_reboot.push_back(attitudes.size());
     reboots_at.push_back(frames.back().at);
@@ -32,6 +33,7 @@ class CollectingSink : public TelemetrySink {
   std::vector<AttitudeSample> attitudes;
   std::vector<PositionSample> positions;
   std::vector<RangeSample> ranges;
+  std::vector<GimbalSample> gimbals;
   std::vector<std::size_t> attitudes_before_reboot;
   std::vector<ReceivedFrame> frames;
   std::vector<HostTime> reboots_at;

@@ -56,6 +56,22 @@ class Comparison {
   /// The recorded vehicles have none.
   void operator()(const RangeMessage&) const { EXPECT_EQ(row_[0], "DISTANCE_SENSOR"); }
 
+  void operator()(const GimbalMessage& found) const {
+    const char* const names[] = {"MOUNT_STATUS", "MOUNT_ORIENTATION", "GIMBAL_DEVICE_ATTITUDE_STATUS"};
+    ASSERT_EQ(row_[0], names[static_cast<std::size_t>(found.source)]);
+    EXPECT_EQ(found.has_time, found.source != GimbalSource::kMountStatus);
+    EXPECT_EQ(found.sample.time, boot_time(row_[1]));
+    const Eigen::Quaterniond expected(std::stod(row_[2]), std::stod(row_[3]), std::stod(row_[4]),
+                                      std::stod(row_[5]));
+    EXPECT_NEAR(found.sample.level_from_gimbal.norm(), 1.0, 1e-12);
+    EXPECT_LT(found.sample.level_from_gimbal.angularDistance(expected.normalized()), 1e-7);
+    EXPECT_EQ(found.sample.yaw == GimbalYaw::kFromNorth ? "north" : "nose", row_[6]);
+    ASSERT_EQ(found.sample.holds_direction.has_value(), !row_[7].empty());
+    EXPECT_EQ(found.sample.holds_direction.value_or(false), row_[7] == "1");
+    EXPECT_EQ(found.device_id, std::stoi(row_[8]));
+    EXPECT_EQ(found.failure_flags, std::stoul(row_[9]));
+  }
+
   void operator()(const GnssStatus& found) const {
     ASSERT_EQ(row_[0], "GPS_RAW_INT");
     EXPECT_EQ(found.fix_type, std::stoi(row_[1]));

@@ -120,6 +120,31 @@ Bytes FrameFactory::rangefinder(double distance_m) {
   return pack(mavlink_msg_rangefinder_encode_status, fields);
 }
 
+Bytes FrameFactory::gimbal_device(VehicleTime time, double pitch_rad, std::uint16_t flags,
+                                  std::uint8_t device_id, std::uint32_t failure_flags) {
+  mavlink_gimbal_device_attitude_status_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  fields.q[0] = static_cast<float>(std::cos(0.5 * pitch_rad));
+  fields.q[2] = static_cast<float>(std::sin(0.5 * pitch_rad));
+  fields.flags = flags;
+  fields.gimbal_device_id = device_id;
+  fields.failure_flags = failure_flags;
+  return pack(mavlink_msg_gimbal_device_attitude_status_encode_status, fields);
+}
+
+Bytes FrameFactory::mount_orientation(VehicleTime time, double pitch_deg) {
+  mavlink_mount_orientation_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  fields.pitch = static_cast<float>(pitch_deg);
+  return pack(mavlink_msg_mount_orientation_encode_status, fields);
+}
+
+Bytes FrameFactory::mount_status(double pitch_deg) {
+  mavlink_mount_status_t fields{};
+  fields.pointing_a = static_cast<std::int32_t>(std::lround(100.0 * pitch_deg));
+  return pack(mavlink_msg_mount_status_encode_status, fields);
+}
+
 Bytes FrameFactory::ekf_status(std::uint16_t flags) {
   mavlink_ekf_status_report_t fields{};
   fields.flags = flags;

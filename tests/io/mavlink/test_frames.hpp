@@ -46,6 +46,11 @@ class FrameFactory {
   Bytes distance_sensor(VehicleTime time, double distance_m, std::uint8_t orientation = 25,
                         std::uint8_t signal_quality = 0);
   Bytes rangefinder(double distance_m);
+  /// GIMBAL_DEVICE_ATTITUDE_STATUS of a gimbal pitched so, its yaw 0 from what the flags say.
+  Bytes gimbal_device(VehicleTime time, double pitch_rad, std::uint16_t flags, std::uint8_t device_id = 0,
+                      std::uint32_t failure_flags = 0);
+  Bytes mount_orientation(VehicleTime time, double pitch_deg);
+  Bytes mount_status(double pitch_deg);
   Bytes ekf_status(std::uint16_t flags);
   Bytes estimator_status(std::uint16_t flags);
   Bytes system_time(VehicleTime time);

@@ -35,8 +35,9 @@ class VehicleLink {
  public:
   using Send = std::function<void(const std::uint8_t* frame, std::size_t size)>;
 
-  /// Throws std::invalid_argument naming every problem.
-  explicit VehicleLink(const MavlinkConfig& config);
+  /// `has_gimbal`: a gimbal's angles are asked for. They are delivered either way. Throws
+  /// std::invalid_argument naming every problem.
+  explicit VehicleLink(const MavlinkConfig& config, bool has_gimbal = false);
 
   /// Takes bytes as received, in pieces of any size; `received_at` is in whole microseconds, as in
   /// recordings. True if they completed a frame of the vehicle: replies go to their sender.
@@ -95,6 +96,7 @@ class VehicleLink {
   bool is_alive(HostTime now) const;
 
   MavlinkConfig config_;
+  bool has_gimbal_;
   FrameParser parser_;
   VehicleChoice choice_;
   BootClockMonitor boot_clock_;
