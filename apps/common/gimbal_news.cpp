@@ -37,13 +37,12 @@ std::string on_yaw(const Geolocator& geolocator) {
       "the gimbal says that its yaw counts from {}, and what it does while the vehicle turns contradicts "
       "that",
       name_of(told));
-  if (used == told)
-    return contradiction + ": it is taken so nevertheless, since state.gimbal_yaw asks for it";
-  return contradiction +
-         fmt::format(
-             ": it is taken to count from {}, and objects of before are void (state.gimbal_yaw \"{}\" "
-             "would take it as told)",
-             name_of(used), told == GimbalYaw::kFromNose ? "nose" : "north");
+  const std::string taken = fmt::format(": it is taken to count from {}", name_of(used));
+  if (geolocator.config().state.gimbal_yaw != GimbalYawReading::kAsTold)
+    return contradiction + taken + ", as state.gimbal_yaw asks for";
+  return contradiction + taken +
+         fmt::format(", and objects of before are void (state.gimbal_yaw \"{}\" would take it as told)",
+                     told == GimbalYaw::kFromNose ? "nose" : "north");
 }
 
 std::string on_set_point(const Geolocator& geolocator) {
