@@ -49,7 +49,7 @@ std::string on_set_point(const Geolocator& geolocator) {
   if (!geolocator.state().gimbal().is_set_point()) return {};
   return "the gimbal's angles have no noise while the vehicle shakes: they seem to be those that it was told "
          "to "
-         "hold, and count as wrong by 1 deg (1 sigma)";
+         "hold, and count as wrong by 1 deg (1 sigma); frames of fast turns are left out";
 }
 
 }  // namespace

@@ -9,9 +9,15 @@
 namespace geoloc {
 namespace {
 
-/// What a gimbal's axes are off by from where they were told to be: gimbals hold a still camera to tenths of
-/// a degree, and lag behind by degrees.
-constexpr double kSetPointSigma_rad = 1.0 * kRadPerDeg;
+/// What a gimbal's axes are off by from where they were told to be: tenths of degrees where they are told to
+/// stay, and where they are told to turn, what they turn by within the lag of their motors.
+constexpr double kSetPointSigma_rad = 1.0 * kRadPerDeg, kSetPointLag_s = 0.3;
+/// What is off by more says nothing of where an object is.
+constexpr double kMostSigma_rad = 5.0 * kRadPerDeg;
+
+double set_point_sigma_rad(double turn_rate_radps) {
+  return std::hypot(kSetPointSigma_rad, kSetPointLag_s * turn_rate_radps);
+}
 
 /// A direction turned by no more than about the vertical.
 struct Heading {
@@ -79,9 +85,10 @@ Expected<GimbalState, NoState> GimbalHistory::at(const VehicleState& vehicle) co
                                                                   after.level_from_gimbal, around->alpha))
           .normalized();
   state.turn_rate_in_enu = enu_from_level * rate_in_level;
-  state.sigma_turn_rad =
-      std::hypot(around->sigma(kAngularAcceleration_radps2), is_from_nose ? vehicle.sigma_turn_rad : 0.0,
-                 is_set_point() ? kSetPointSigma_rad : 0.0);
+  const double feedback_sigma_rad = is_set_point() ? set_point_sigma_rad(rate_in_level.norm()) : 0.0;
+  if (feedback_sigma_rad > kMostSigma_rad) return NoState::kInAGap;
+  state.sigma_turn_rad = std::hypot(around->sigma(kAngularAcceleration_radps2),
+                                    is_from_nose ? vehicle.sigma_turn_rad : 0.0, feedback_sigma_rad);
   state.sigma_bend_rad = std::max(around->sigma(state.turn_rate_in_enu.norm() / kTurnChange_s),
                                   is_from_nose ? vehicle.sigma_bend_rad : 0.0);
   state.gap = around->spacing;

@@ -74,11 +74,11 @@ TEST(Diagnosis, NamesTheSettingWhereNoFrameIsLocated) {
   RunFacts facts = run_without_state();
   facts.census.frames_without_vehicle = 100;
   EXPECT_SAYS(facts, "no frame was located: they came before the vehicle's clock was known");
-  const std::pair<NoState, const char*> words[] = {{NoState::kNotYet, "frames.max_wait_s (4 s)"},
+  const std::pair<NoState, const char*> words[] = {{NoState::kNoGimbal, "camera.mount.kind"},
+                                                   {NoState::kNotYet, "frames.max_wait_s (4 s)"},
                                                    {NoState::kTooOld, "before the telemetry that is kept"},
                                                    {NoState::kInAGap, "state.max_gap_s (3 s)"},
-                                                   {NoState::kNoSamples, "first attitude and position"},
-                                                   {NoState::kNoGimbal, "camera.mount.kind"}};
+                                                   {NoState::kNoSamples, "first attitude and position"}};
   for (const auto& [reason, setting] : words) {
     facts = run_without_state();
     facts.census.frames_without_state[static_cast<std::size_t>(reason)] = 100;

@@ -14,8 +14,8 @@ constexpr double kLag_s = 0.15, kFollowLag_s = 0.4;
 constexpr double kMostYawFromNose_rad = 160.0 * kRadPerDeg;
 constexpr double kLeastPitch_rad = -90.0 * kRadPerDeg, kMostPitch_rad = 20.0 * kRadPerDeg;
 constexpr double kShake_rad = 0.1 * kRadPerDeg, kShakeTime_s = 0.5;
-/// As the autopilot's roll and pitch in data/flights are off by, and as long.
-constexpr double kSensorDrift_rad = 0.07 * kRadPerDeg, kSensorDriftTime_s = 3.0;
+/// As the autopilot's roll and pitch are off by on the straight legs of data/flights, and as long.
+constexpr double kSensorDrift_rad = 0.04 * kRadPerDeg, kSensorDriftTime_s = 3.0;
 constexpr double kSensorNoise_rad = 0.03 * kRadPerDeg;
 
 Eigen::Vector3d normals(Random& random) {

@@ -69,8 +69,8 @@ TEST(SimulatedGimbal, TellsHowItIsTurnedTenTimesASecond) {
         sum_rad2 += off_rad * off_rad;
       }
       const double rms_deg = std::sqrt(sum_rad2 / static_cast<double>(heard.size())) * kDegPerRad;
-      EXPECT_GT(rms_deg, 0.08);
-      EXPECT_LT(rms_deg, from == GimbalYaw::kFromNose ? 0.2 : 1.0);
+      EXPECT_GT(rms_deg, 0.05);
+      EXPECT_LT(rms_deg, from == GimbalYaw::kFromNose ? 0.2 : 1.5);
     }
   }
 }

@@ -30,8 +30,9 @@ struct GimbalSettings {
 /// The same flight with a gimbal. It follows its set-point with a lag of 0.15 s (0.4 s in yaw, where it
 /// follows the nose), within 160 deg of the nose and 90 deg down to 20 deg up, and is off by 0.1 deg that
 /// change within half a second. Ten times a second it tells its angles with noise of 0.03 deg, and an error
-/// of 0.07 deg that changes within 3 s, as the autopilot's own roll and pitch in data/flights; its yaw from
-/// north is by what the autopilot believes of its own. All figures are 1 sigma, about each axis.
+/// of 0.04 deg that changes within 3 s, as the autopilot's own roll and pitch on the straight legs of
+/// data/flights; its yaw from north is by what the autopilot believes of its own. All figures are 1 sigma,
+/// about each axis.
 Flight with_gimbal(const Flight& flight, const GimbalSettings& settings, std::uint64_t seed);
 
 }  // namespace geoloc::sim
