@@ -6,6 +6,8 @@
 #include <array>
 #include <utility>
 
+#include "geoloc/state/state_provider.hpp"
+
 namespace geoloc::apps {
 namespace {
 
@@ -49,7 +51,8 @@ std::string on_set_point(const Geolocator& geolocator) {
   if (!geolocator.state().gimbal().is_set_point()) return {};
   return "the gimbal's angles have no noise while the vehicle shakes: they seem to be those that it was told "
          "to "
-         "hold, and count as wrong by 1 deg (1 sigma); frames of fast turns are left out";
+         "hold, and count as wrong by 0.5 deg (1 sigma); frames of fast turns are left out, and objects of "
+         "before are void";
 }
 
 }  // namespace

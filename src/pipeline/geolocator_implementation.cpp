@@ -67,9 +67,11 @@ void Geolocator::Implementation::add(const RangeSample& sample) {
 /// Cameras that are fixed to the body leave a gimbal alone.
 void Geolocator::Implementation::add(const GimbalSample& sample) {
   if (config.camera.mount.kind != MountKind::kGimbal) return;
-  const GimbalYaw before = state.gimbal().reading(sample.yaw);
+  const GimbalYaw reading = state.gimbal().reading(sample.yaw);
+  const bool was_set_point = state.gimbal().is_set_point();
   state.add(sample);
-  if (state.gimbal().reading(sample.yaw) != before) begin_map_anew();
+  const bool turned_out_set_point = state.gimbal().is_set_point() && !was_set_point;
+  if (turned_out_set_point || state.gimbal().reading(sample.yaw) != reading) begin_map_anew();
 }
 
 /// Nothing that was estimated holds, but for the local frame.

@@ -11,9 +11,9 @@ namespace {
 
 /// What a gimbal's axes are off by from where they were told to be: tenths of degrees where they are told to
 /// stay, and where they are told to turn, what they turn by within the lag of their motors.
-constexpr double kSetPointSigma_rad = 1.0 * kRadPerDeg, kSetPointLag_s = 0.3;
+constexpr double kSetPointSigma_rad = 0.5 * kRadPerDeg, kSetPointLag_s = 0.3;
 /// What is off by more says nothing of where an object is.
-constexpr double kMostSigma_rad = 5.0 * kRadPerDeg;
+constexpr double kMostSigma_rad = 2.0 * kRadPerDeg;
 
 double set_point_sigma_rad(double turn_rate_radps) {
   return std::hypot(kSetPointSigma_rad, kSetPointLag_s * turn_rate_radps);

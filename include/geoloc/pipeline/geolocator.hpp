@@ -37,7 +37,7 @@ class Geolocator {
     std::array<std::uint64_t, kFrameFates> frames_by_fate{};  ///< by FrameFate
     std::uint64_t detections = 0;                             ///< in located frames
     std::uint64_t detections_dropped = 0;  ///< beyond max_detections, or with numbers that cannot be
-    std::uint64_t maps_void = 0;           ///< objects begun anew, since a gimbal's yaw was misread
+    std::uint64_t maps_void = 0;           ///< objects begun anew, since a gimbal was misread
     std::uint64_t ranges = 0;              ///< a rangefinder's readings that were taken in
     std::uint64_t detections_at_edge = 0;  ///< not used: cut by the image's edge, perhaps
     std::array<std::uint64_t, kNoFixReasons> no_fix{};  ///< detections without a ground point, by NoFix
@@ -55,8 +55,8 @@ class Geolocator {
   void add(const RangeSample& sample);
 
   /// Used where the camera's mount is of kind gimbal. Where turns of the vehicle show that yaws count from
-  /// the nose instead of north, or the other way round, the objects so far are void and begin anew
-  /// (counters().maps_void), and frames from then on are located by the right one.
+  /// the nose instead of north, or the other way round, and where angles turn out to be no measurements, the
+  /// objects so far are void and begin anew (counters().maps_void).
   void add(const GimbalSample& sample);
 
   /// A frame waits, at least until there are attitudes and positions from beyond its time, and the gimbal's

@@ -37,8 +37,8 @@ class GimbalHistory {
   bool is_yaw_told_wrong() const { return yaw_.is_told_wrong(); }
   /// What yaws that are told so are taken to count from.
   GimbalYaw reading(GimbalYaw told) const;
-  /// Whether angles are those that the gimbal was told to hold: they count as wrong by a degree, and more
-  /// where it was told to turn. Nothing is known of it while it turns fast.
+  /// Whether angles are those that the gimbal was told to hold: they count as wrong by half a degree, and
+  /// more where it was told to turn. Nothing is known of it while it turns fast.
   bool is_set_point() const { return set_point_.is_set_point(); }
   /// The last sample that was not late.
   const std::optional<GimbalSample>& newest() const { return newest_; }
