@@ -23,6 +23,7 @@ ROWS = [
     ("gimbal, 45° down", ("--gimbal", "45"), "rigid, 45° down in flight"),
     ("rigid, 65° down in flight", ("--mount-pitch-deg", "-58"), None),
     ("gimbal, sweeps between 90° and 40° down", ("--gimbal", "sweep"), "rigid, 65° down in flight"),
+    ("gimbal, looks down, tells its set-point", ("--gimbal", "nadir", "--gimbal-setpoint-feedback"), None),
     ("gimbal, 45° down, tells its set-point", ("--gimbal", "45", "--gimbal-setpoint-feedback"), None),
 ] + [
     (f"gimbal, 45° down, {yaw}s, says {says}, wrongly",

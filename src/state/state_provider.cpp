@@ -23,6 +23,10 @@ constexpr double kFirstFixError_m = 100.0, kHighestSpeed_mps = 250.0, kEarthRadi
 /// RMS of what straight lines between decimated samples of the flights in data/flights are off by, 1 to 5 Hz.
 constexpr double kAcceleration_mps2 = 1.0;
 
+/// A gimbal that was told to turn by more than this so short a time ago may not have come there yet.
+constexpr Duration kSettling = std::chrono::milliseconds{1500};
+constexpr double kStill_rad = 8.0 * kRadPerDeg;
+
 StateSteps sum(const StateSteps& a, const StateSteps& b) {
   return {a.segment + b.segment, a.size + b.size, a.variance + b.variance};
 }
@@ -277,7 +281,15 @@ Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
 }
 
 Expected<GimbalState, NoState> StateProvider::gimbal_at(const VehicleState& vehicle) const {
-  return gimbal_.at(vehicle);
+  const auto now = gimbal_.at(vehicle);
+  if (!now || !gimbal_.is_set_point()) return now;
+  const auto vehicle_before = at(vehicle.time - kSettling);
+  if (!vehicle_before) return now;
+  const auto before = gimbal_.at(*vehicle_before);
+  const bool is_still =
+      before && now->enu_from_gimbal.angularDistance(before->enu_from_gimbal) <= kStill_rad;
+  if (!is_still) return NoState::kInAGap;
+  return now;
 }
 
 void StateProvider::anchor(VehicleTime time) {

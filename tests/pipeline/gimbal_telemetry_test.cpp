@@ -69,12 +69,18 @@ Pose camera_of(const Gimbal& gimbal, const Pose& vehicle) {
   return {vehicle.position, 0.0, (gimbal.pitch_deg + 90.0) * kRadPerDeg, yaw_from_north(gimbal, vehicle)};
 }
 
+/// What is measured is never quite even.
+double noise_rad(double time_s) {
+  return 3e-4 * std::sin(1e4 * time_s);
+}
+
 GimbalSample sample_of(const Gimbal& gimbal, double time_s, const Pose& vehicle,
                        bool has_wrong_flag = false) {
   const double from_north = yaw_from_north(gimbal, vehicle);
   const bool is_from_north = gimbal.truly_from == GimbalYaw::kFromNorth;
   const double yaw = is_from_north ? from_north : from_north - vehicle.yaw;
-  return {testing::at_s(time_s), ned_from_body({0.0, gimbal.pitch_deg * kRadPerDeg, yaw}),
+  return {testing::at_s(time_s),
+          ned_from_body({noise_rad(time_s), gimbal.pitch_deg * kRadPerDeg + noise_rad(time_s + 0.05), yaw}),
           is_from_north != has_wrong_flag ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose,
           gimbal.holds_direction};
 }
@@ -176,7 +182,7 @@ TEST(GimbalTelemetry, TellsWhereEachObjectIsWhateverTheVehicleDoes) {
       const Geolocator geolocator = flown(on_gimbal(method), gimbal);
       const Map map = map_of(geolocator);
       EXPECT_GT(map.objects, 15) << gimbal.pitch_deg;
-      EXPECT_LT(map.worst_m, 0.1) << gimbal.pitch_deg << ' ' << gimbal.holds_direction;
+      EXPECT_LT(map.worst_m, 0.15) << gimbal.pitch_deg << ' ' << gimbal.holds_direction;
       EXPECT_EQ(geolocator.counters().maps_void, 0U);
       EXPECT_FALSE(geolocator.state().gimbal().is_yaw_told_wrong());
     }
@@ -190,7 +196,7 @@ TEST(GimbalTelemetry, WithAWrongYawFlagIsNoticedAndLeavesNoFalseObject) {
     EXPECT_EQ(geolocator.counters().maps_void, 1U);
     const Map map = map_of(geolocator);
     EXPECT_GT(map.objects, 10) << gimbal.pitch_deg << ' ' << gimbal.holds_direction;
-    EXPECT_LT(map.worst_m, 0.1) << gimbal.pitch_deg << ' ' << gimbal.holds_direction;
+    EXPECT_LT(map.worst_m, 0.15) << gimbal.pitch_deg << ' ' << gimbal.holds_direction;
   }
 }
 
@@ -201,7 +207,7 @@ TEST(GimbalTelemetry, IsTakenAsAUserSaysWhoKnowsBetter) {
   const Geolocator geolocator = flown(config, gimbal, true);
   EXPECT_TRUE(geolocator.state().gimbal().is_yaw_told_wrong()) << "it is noticed nevertheless";
   EXPECT_EQ(geolocator.counters().maps_void, 0U);
-  EXPECT_LT(map_of(geolocator).worst_m, 0.1);
+  EXPECT_LT(map_of(geolocator).worst_m, 0.15);
 }
 
 TEST(GimbalTelemetry, IsWaitedForAsTheVehiclesIs) {
@@ -279,7 +285,7 @@ TEST(GimbalTelemetry, OfACameraThatIsTurnedAgainstItsGimbalShowsByHowMuch) {
   }
   geolocator.finish();
   EXPECT_LT((geolocator.calibration()->boresight_rad() - boresight_rad).norm(), 0.004);
-  EXPECT_LT(map_of(geolocator).worst_m, 0.1);
+  EXPECT_LT(map_of(geolocator).worst_m, 0.15);
 }
 
 TEST(GimbalTelemetry, TakesNoMemoryInFlight) {
