@@ -105,7 +105,7 @@ TEST_F(Page, HostileRequestsAreRefused) {
 TEST_F(Page, WithATokenIsForThoseWhoHaveIt) {
   const std::string token = "0123456789abcdef";
   page.emplace(HttpEndpoint{"127.0.0.1", 0}, LivePageConfig{}, LivePageTitle{"run", true},
-               std::vector<std::string>{}, token);
+               std::vector<std::string>{}, LivePageParts{token});
   const std::string url = page->url();
   const std::string host = url.substr(7, url.size() - 8);
   port = static_cast<std::uint16_t>(std::stoi(host.substr(host.find(':') + 1)));
