@@ -2,6 +2,7 @@
 #include "geoloc/io/video/file_source.hpp"
 
 #include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +22,21 @@ std::optional<Duration> time_of(GstSample* sample) {
   const guint64 running = gst_segment_to_running_time(gst_sample_get_segment(sample), GST_FORMAT_TIME, pts);
   if (running == GST_CLOCK_TIME_NONE || running > kLongestFile) return std::nullopt;
   return Duration{static_cast<std::int64_t>(running)};
+}
+
+/// What the container tells, to the second or better; nullopt without a whole date and time.
+std::optional<HostTime> creation_time_of(const GstTagList* tags) {
+  GstDateTime* told = nullptr;
+  if (gst_tag_list_get_date_time(tags, GST_TAG_DATE_TIME, &told) == FALSE) return std::nullopt;
+  std::optional<HostTime> created_at;
+  GDateTime* const time = gst_date_time_has_second(told) != FALSE ? gst_date_time_to_g_date_time(told) : nullptr;
+  if (time != nullptr) {
+    created_at = HostTime{std::chrono::seconds{g_date_time_to_unix(time)} +
+                          std::chrono::microseconds{g_date_time_get_microsecond(time)}};
+    g_date_time_unref(time);
+  }
+  gst_date_time_unref(told);
+  return created_at;
 }
 
 }  // namespace
@@ -44,6 +60,18 @@ class FileSource::Impl {
 
   std::optional<VideoFrame> next(Duration timeout) { return exchange_.take(timeout); }
   VideoStatus status() const { return exchange_.status(clock_.now()); }
+
+  FileFacts facts() const {
+    FileFacts facts;
+    {
+      const std::lock_guard lock(tags_mutex_);
+      facts.created_at = created_at_;
+    }
+    gint64 length_ns = 0;
+    if (gst_element_query_duration(pipeline_.get(), GST_FORMAT_TIME, &length_ns) != FALSE && length_ns > 0)
+      facts.duration = Duration{length_ns};
+    return facts;
+  }
 
  private:
   bool is_ended() const { return status().state == VideoState::kEnded; }
@@ -101,8 +129,19 @@ class FileSource::Impl {
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
       static_cast<Impl*>(self)->exchange_.report_error(error_text(message));
       static_cast<Impl*>(self)->exchange_.end();
+    } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_TAG) {
+      static_cast<Impl*>(self)->note_tags(message);
     }
     return GST_BUS_PASS;
+  }
+
+  void note_tags(GstMessage* message) {
+    GstTagList* tags = nullptr;
+    gst_message_parse_tag(message, &tags);
+    const auto told = creation_time_of(tags);
+    gst_tag_list_unref(tags);
+    const std::lock_guard lock(tags_mutex_);
+    if (told) created_at_ = told;
   }
 
   static GstFlowReturn on_sample(GstAppSink* sink, gpointer self) {
@@ -140,6 +179,8 @@ class FileSource::Impl {
   const VideoConfig config_;
   const HostClock& clock_;
   FrameExchange exchange_;
+  mutable std::mutex tags_mutex_;
+  std::optional<HostTime> created_at_;  // guarded by tags_mutex_
   GstElement* converter_ = nullptr;  // owned by the pipeline
   GstPipelinePtr pipeline_;          // last: its threads end before what they use
 };
@@ -156,6 +197,10 @@ std::optional<VideoFrame> FileSource::next(Duration timeout) {
 
 VideoStatus FileSource::status() const {
   return impl_->status();
+}
+
+FileFacts FileSource::facts() const {
+  return impl_->facts();
 }
 
 }  // namespace geoloc::io
