@@ -34,14 +34,16 @@ Duration utc_since(const std::vector<io::UtcPair>& pairs) {
 void take_utc(const io::FlightLog& log, std::optional<double> utc_offset_h, FlightTrack& track) {
   track.is_utc_known = !log.utc.empty();
   if (!track.is_utc_known) {
-    track.assumptions.emplace_back("the log tells no date: the times in the results count from 1 January 1970");
+    track.assumptions.emplace_back(
+        "the log tells no date: the times in the results count from 1 January 1970");
     return;
   }
   track.utc_since_log = utc_since(log.utc);
   if (!log.is_utc_local) return;
   track.utc_since_log -= from_seconds(3600.0 * utc_offset_h.value_or(0.0));
   if (!utc_offset_h)
-    track.assumptions.emplace_back("the log does not tell its time zone: UTC is assumed (--utc-offset-h says another)");
+    track.assumptions.emplace_back(
+        "the log does not tell its time zone: UTC is assumed (--utc-offset-h says another)");
 }
 
 /// A gimbal that keeps its pitch and looks where the vehicle heads.
@@ -49,16 +51,18 @@ std::vector<io::GimbalSample> level_gimbal(const std::vector<AttitudeSample>& at
   std::vector<io::GimbalSample> gimbal;
   gimbal.reserve(attitudes.size());
   for (const AttitudeSample& attitude : attitudes)
-    gimbal.push_back({attitude.time, {0.0, pitch_deg * kRadPerDeg, attitude.angles.yaw_rad}, io::GimbalYaw::kFromNorth});
+    gimbal.push_back(
+        {attitude.time, {0.0, pitch_deg * kRadPerDeg, attitude.angles.yaw_rad}, io::GimbalYaw::kFromNorth});
   return gimbal;
 }
 
-/// Only the camera's own angles count where the vehicle's are not told: it is taken to be level below them.
-std::vector<AttitudeSample> level_below(const std::vector<io::GimbalSample>& gimbal) {
+/// Only the camera's own angles count where the vehicle's are not told: it is taken to be level, to the
+/// north, and its camera turns below it. No watch then takes a turn of the camera for a jump of the vehicle.
+template <typename Sample>
+std::vector<AttitudeSample> level_north(const std::vector<Sample>& samples) {
   std::vector<AttitudeSample> attitudes;
-  attitudes.reserve(gimbal.size());
-  for (const io::GimbalSample& sample : gimbal)
-    attitudes.push_back({sample.time, {0.0, 0.0, sample.angles.yaw_rad}});
+  attitudes.reserve(samples.size());
+  for (const Sample& sample : samples) attitudes.push_back({sample.time, {}});
   return attitudes;
 }
 
@@ -77,15 +81,17 @@ void count_from_north(const std::vector<AttitudeSample>& attitudes, std::vector<
 void assume_camera(const TrackFacts& facts, FlightTrack& track) {
   constexpr double kToldSigma_deg = 2.0, kNadirSigma_deg = 5.0, kNadir_deg = -90.0;
   track.is_heading_assumed = true;
-  track.attitudes = level_towards_course(track.positions);
-  track.gimbal = level_gimbal(track.attitudes, facts.camera_pitch_deg.value_or(kNadir_deg));
+  track.gimbal =
+      level_gimbal(level_towards_course(track.positions), facts.camera_pitch_deg.value_or(kNadir_deg));
+  track.attitudes = level_north(track.gimbal);
   track.sigma_attitude_deg = facts.camera_pitch_deg ? kToldSigma_deg : kNadirSigma_deg;
   track.assumptions.push_back(fmt::format(
       "the log does not tell how the camera looked: it is taken to look {}, to {:g} degrees{}",
       facts.camera_pitch_deg ? fmt::format("with a pitch of {:g} degrees", *facts.camera_pitch_deg)
                              : std::string("straight down"),
       track.sigma_attitude_deg, facts.camera_pitch_deg ? "" : " (--gimbal-pitch-deg says another pitch)"));
-  track.assumptions.emplace_back("the log tells no heading: the image's top is taken to be where the vehicle flew to");
+  track.assumptions.emplace_back(
+      "the log tells no heading: the image's top is taken to be where the vehicle flew to");
 }
 
 void take_angles(io::FlightLog& log, const TrackFacts& facts, FlightTrack& track) {
@@ -96,7 +102,7 @@ void take_angles(io::FlightLog& log, const TrackFacts& facts, FlightTrack& track
   });
   if (track.attitudes.empty() && has_nose_yaws) track.gimbal.clear();
   if (track.attitudes.empty() && track.gimbal.empty()) return assume_camera(facts, track);
-  if (track.attitudes.empty()) track.attitudes = level_below(track.gimbal);
+  if (track.attitudes.empty()) track.attitudes = level_north(track.gimbal);
   count_from_north(track.attitudes, track.gimbal);
   if (!track.gimbal.empty()) {
     if (facts.camera_pitch_deg)
@@ -106,13 +112,15 @@ void take_angles(io::FlightLog& log, const TrackFacts& facts, FlightTrack& track
   if (!facts.camera_pitch_deg) return;  // fixed in the vehicle
   track.gimbal = level_gimbal(track.attitudes, *facts.camera_pitch_deg);
   track.assumptions.emplace_back(
-      "the log has no angles of a gimbal: the camera is taken to keep the pitch of --gimbal-pitch-deg, level, "
+      "the log has no angles of a gimbal: the camera is taken to keep the pitch of --gimbal-pitch-deg, "
+      "level, "
       "towards the vehicle's nose");
 }
 
 void note_damage(const io::FlightLog& log, FlightTrack& track) {
   if (log.skipped_bytes > 0)
-    track.notes.push_back(fmt::format("the log is damaged: {} bytes of it are no records", log.skipped_bytes));
+    track.notes.push_back(
+        fmt::format("the log is damaged: {} bytes of it are no records", log.skipped_bytes));
   if (log.dropouts > 0) track.notes.push_back(fmt::format("the log reports {} gaps in it", log.dropouts));
 }
 
@@ -131,8 +139,8 @@ FlightTrack track_of(io::FlightLog log, const TrackFacts& facts) {
   track.begin = std::min(track.positions.front().time, track.attitudes.front().time);
   track.end = std::max(track.positions.back().time, track.attitudes.back().time);
   if (track.end - track.begin > kLongestLog)
-    throw std::runtime_error(fmt::format("spans {:.1f} days: cut out the flight",
-                                         seconds(track.end - track.begin) / 86400.0));
+    throw std::runtime_error(
+        fmt::format("spans {:.1f} days: cut out the flight", seconds(track.end - track.begin) / 86400.0));
   return track;
 }
 

@@ -22,15 +22,15 @@ struct FlightTrack {
   std::vector<AttitudeSample> attitudes;
   std::vector<PositionSample> positions;  ///< each with heights and a velocity
   std::vector<io::LoggedFix> fixes;
-  std::vector<io::GimbalSample> gimbal;   ///< each from north; empty: the camera is fixed in the vehicle
-  VehicleTime begin;                      ///< of the first sample of the vehicle's state
+  std::vector<io::GimbalSample> gimbal;  ///< each from north; empty: the camera is fixed in the vehicle
+  VehicleTime begin;                     ///< of the first sample of the vehicle's state
   VehicleTime end;
-  Duration utc_since_log{};               ///< what UTC is ahead of the log's clock
+  Duration utc_since_log{};  ///< what UTC is ahead of the log's clock
   bool is_utc_known = false;
-  double sigma_attitude_deg = 0.0;        ///< of angles that were assumed; 0: all are told
+  double sigma_attitude_deg = 0.0;  ///< of angles that were assumed; 0: all are told
   bool is_heading_assumed = false;
-  std::vector<std::string> notes;         ///< how good the log is
-  std::vector<std::string> assumptions;   ///< what was not told, and what was taken instead
+  std::vector<std::string> notes;        ///< how good the log is
+  std::vector<std::string> assumptions;  ///< what was not told, and what was taken instead
 };
 
 /// Throws std::runtime_error where one fact is missing that only the user knows, or the log is of no flight.

@@ -17,7 +17,8 @@ using Json = nlohmann::json;
 constexpr std::uint64_t kSyncEvery = 100;
 
 std::string to_line(const VideoLook& look) {
-  nlohmann::ordered_json line{{"frame", look.frame}, {"time_ns", look.time.count()}, {"detections", Json::array()}};
+  nlohmann::ordered_json line{
+      {"frame", look.frame}, {"time_ns", look.time.count()}, {"detections", Json::array()}};
   for (const Detection& detection : look.detections)
     line["detections"].push_back(io::detection_to_json(detection));
   return line.dump() + "\n";

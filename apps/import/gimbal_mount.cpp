@@ -15,8 +15,9 @@ constexpr Duration kFarthest = std::chrono::seconds{1};
 /// The turn from the body or the gimbal to north, east, down; between two samples, on the shortest way.
 template <typename Sample>
 std::optional<Eigen::Quaterniond> turn_at(const std::vector<Sample>& samples, VehicleTime time) {
-  const auto after = std::lower_bound(samples.begin(), samples.end(), time,
-                                      [](const Sample& sample, VehicleTime wanted) { return sample.time < wanted; });
+  const auto after =
+      std::lower_bound(samples.begin(), samples.end(), time,
+                       [](const Sample& sample, VehicleTime wanted) { return sample.time < wanted; });
   const bool has_after = after != samples.end() && after->time - time <= kFarthest;
   const bool has_before = after != samples.begin() && time - std::prev(after)->time <= kFarthest;
   if (!has_after && !has_before) return std::nullopt;
@@ -29,7 +30,8 @@ std::optional<Eigen::Quaterniond> turn_at(const std::vector<Sample>& samples, Ve
 
 }  // namespace
 
-std::optional<CameraMount> gimbal_mount(const FlightTrack& track, const CameraMount& mount, VehicleTime time) {
+std::optional<CameraMount> gimbal_mount(const FlightTrack& track, const CameraMount& mount,
+                                        VehicleTime time) {
   const auto ned_from_vehicle = turn_at(track.attitudes, time);
   const auto ned_from_gimbal = turn_at(track.gimbal, time);
   if (!ned_from_vehicle || !ned_from_gimbal) return std::nullopt;

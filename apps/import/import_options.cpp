@@ -25,8 +25,9 @@ void add_shared_options(CLI::App& command, Options& options) {
       ->check(CLI::Range(-14.0, 14.0))
       ->type_name("X");
   command
-      .add_option("--take-off-height-m", options.take_off_height_m,
-                  "The take-off's height, m, as the absolute heights count, where no heights above it are told")
+      .add_option(
+          "--take-off-height-m", options.take_off_height_m,
+          "The take-off's height, m, as the absolute heights count, where no heights above it are told")
       ->check(CLI::Range(-1000.0, 9000.0))
       ->type_name("X");
   add_detector_options(command, options.detector);
@@ -66,8 +67,9 @@ const CLI::App* add_video_command(CLI::App& program, VideoOptions& options) {
   CLI::App& video = *program.add_subcommand("video", "A video, and the log of the flight it was taken on");
   video.add_option("FILE", options.video, "The video, of any kind that GStreamer plays")->required();
   video
-      .add_option("--log", options.log,
-                  "DJI's subtitles (.SRT), ArduPilot's .BIN, PX4's .ulg, a MAVLink log (.tlog), or a table (.csv)")
+      .add_option(
+          "--log", options.log,
+          "DJI's subtitles (.SRT), ArduPilot's .BIN, PX4's .ulg, a MAVLink log (.tlog), or a table (.csv)")
       ->type_name("FILE")
       ->required();
   video
@@ -81,9 +83,10 @@ const CLI::App* add_video_command(CLI::App& program, VideoOptions& options) {
                   "Calibration and mount, YAML or camera.json; needed unless the log tells the focal length")
       ->type_name("FILE");
   video
-      .add_option("--gimbal-pitch-deg", options.gimbal_pitch_deg,
-                  "The pitch, deg, of a camera that is held level by a gimbal of which the log tells nothing: "
-                  "-90 is straight down; without it, the camera is fixed in the vehicle as --camera says")
+      .add_option(
+          "--gimbal-pitch-deg", options.gimbal_pitch_deg,
+          "The pitch, deg, of a camera that is held level by a gimbal of which the log tells nothing: "
+          "-90 is straight down; without it, the camera is fixed in the vehicle as --camera says")
       ->check(CLI::Range(-90.0, 0.0))
       ->type_name("X");
   add_shared_options(video, options);

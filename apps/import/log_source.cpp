@@ -35,7 +35,8 @@ Parse parser_for(const std::filesystem::path& file) {
   for (const auto& [extension, parse] : kFormats) {
     if (extension == extension_of(file)) return parse;
   }
-  throw std::runtime_error(file.string() + ": what kind of log it is, its name does not tell: .SRT, .BIN, .ulg, "
+  throw std::runtime_error(file.string() +
+                           ": what kind of log it is, its name does not tell: .SRT, .BIN, .ulg, "
                            ".tlog or .csv is expected");
 }
 
@@ -44,8 +45,9 @@ LogSource as_it_is(const std::filesystem::path& file) {
   LogSource source;
   source.telemetry = io::read_tlog(file);
   const auto& records = source.telemetry->records();
-  const auto [first, last] = std::minmax_element(
-      records.begin(), records.end(), [](const auto& a, const auto& b) { return a.received_at < b.received_at; });
+  const auto [first, last] =
+      std::minmax_element(records.begin(), records.end(),
+                          [](const auto& a, const auto& b) { return a.received_at < b.received_at; });
   source.begins_at = first->received_at;
   source.times.begins_at = first->received_at;
   source.times.length = last->received_at - first->received_at;

@@ -53,7 +53,8 @@ FlightFacts facts_of(const StillsOptions& options, const std::optional<io::Label
 
 /// Everything that can be wrong before the first picture is read is found while this is made.
 struct StillsProgram {
-  explicit StillsProgram(const StillsOptions& given) : options(given), inputs(files_of(find_inputs(given.inputs))) {
+  explicit StillsProgram(const StillsOptions& given)
+      : options(given), inputs(files_of(find_inputs(given.inputs))) {
     if (!options.labels_file.empty())
       labels = io::parse_labels(io::read_text_file(options.labels_file), options.labels_file);
     facts = facts_of(options, labels);

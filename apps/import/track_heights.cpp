@@ -28,10 +28,10 @@ double home_m(const io::FlightLog& log, std::optional<double> told_m, std::vecto
   if (told_m) return *told_m;
   if (log.home_height_msl_m && tells_msl(log.positions.front())) return *log.home_height_msl_m;
   const double first_m = *absolute_m(log.positions.front());
-  assumptions.push_back(
-      fmt::format("the log tells no home: the take-off is taken to be as high as its first position, {:.1f} m "
-                  "(--take-off-height-m says another)",
-                  first_m));
+  assumptions.push_back(fmt::format(
+      "the log tells no home: the take-off is taken to be as high as its first position, {:.1f} m "
+      "(--take-off-height-m says another)",
+      first_m));
   return first_m;
 }
 
@@ -47,7 +47,8 @@ double sea_offset_m(const io::FlightLog& log, std::vector<std::string>& assumpti
           "convert them: heights above sea level in the outputs are those above the ellipsoid");
     return *first.heights.ellipsoid_m - undulation_m.value_or(0.0) - *first.heights.above_home_m;
   }
-  assumptions.emplace_back("the log tells no heights above the sea: the take-off is taken to be at sea level");
+  assumptions.emplace_back(
+      "the log tells no heights above the sea: the take-off is taken to be at sea level");
   return 0.0;
 }
 

@@ -10,8 +10,8 @@
 
 namespace geoloc::apps {
 
-/// The log's positions with their heights above home: as told, or absolute ones less home's. What was taken for
-/// home is added to `assumptions`. Throws std::runtime_error where there are no heights.
+/// The log's positions with their heights above home: as told, or absolute ones less home's. What was taken
+/// for home is added to `assumptions`. Throws std::runtime_error where there are no heights.
 std::vector<PositionSample> positions_above_home(const io::FlightLog& log,
                                                  std::optional<double> told_take_off_height_m,
                                                  std::vector<std::string>& assumptions);

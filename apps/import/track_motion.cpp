@@ -38,8 +38,9 @@ void take_differences(std::vector<PositionSample>& positions) {
 
 /// Straight between the velocities before and after; at the ends, the nearest.
 Eigen::Vector3d velocity_at(const std::vector<io::LoggedVelocity>& told, VehicleTime time) {
-  const auto after = std::lower_bound(told.begin(), told.end(), time,
-                                      [](const auto& sample, VehicleTime wanted) { return sample.time < wanted; });
+  const auto after =
+      std::lower_bound(told.begin(), told.end(), time,
+                       [](const auto& sample, VehicleTime wanted) { return sample.time < wanted; });
   if (after == told.begin()) return told.front().velocity_in_enu;
   if (after == told.end()) return told.back().velocity_in_enu;
   const auto before = std::prev(after);

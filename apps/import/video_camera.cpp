@@ -28,22 +28,25 @@ CameraConfig video_camera(const std::string& camera_file, const VideoFacts& vide
     const CameraConfig camera = io::read_camera_file(camera_file);
     const CameraIntrinsics& size = camera.intrinsics;
     if (size.width_px != video.width_px || size.height_px != video.height_px)
-      throw std::runtime_error(fmt::format("{}: is of pictures of {} x {}, and the video's are {} x {}: calibrate "
-                                           "the camera in its video mode",
-                                           camera_file, size.width_px, size.height_px, video.width_px,
-                                           video.height_px));
+      throw std::runtime_error(
+          fmt::format("{}: is of pictures of {} x {}, and the video's are {} x {}: calibrate "
+                      "the camera in its video mode",
+                      camera_file, size.width_px, size.height_px, video.width_px, video.height_px));
     return camera;
   }
   const auto lens = focal_35mm_mm ? film_lens(video, *focal_35mm_mm) : std::nullopt;
   if (!lens)
     throw std::runtime_error(
-        "the camera's focal length is not known: give its calibration with --camera (a file with width, height "
+        "the camera's focal length is not known: give its calibration with --camera (a file with width, "
+        "height "
         "and horizontal_fov_deg will do: docs/formats.md, camera.json)");
-  assumptions.push_back(fmt::format(
-      "the focal length is the log's equivalent for film of 35 mm, {:.0f} px to some 5 % where the whole width of the "
-      "sensor is used: heights, and positions away from the image's middle, are as uncertain (--camera gives a "
-      "calibration)",
-      lens->intrinsics.fx_px));
+  assumptions.push_back(
+      fmt::format("the focal length is the log's equivalent for film of 35 mm, {:.0f} px to some 5 % where "
+                  "the whole width of the "
+                  "sensor is used: heights, and positions away from the image's middle, are as uncertain "
+                  "(--camera gives a "
+                  "calibration)",
+                  lens->intrinsics.fx_px));
   CameraConfig camera;
   camera.intrinsics = lens->intrinsics;
   return camera;

@@ -35,9 +35,9 @@ std::optional<Duration> told_offset(const VideoOptions& options) {
 /// Whose work the found file holds.
 std::string work_of(const VideoOptions& options, const io::DetectorFiles& files) {
   const std::filesystem::path video = std::filesystem::canonical(options.video);
-  std::string work = fmt::format("geoloc_import: {} of {} bytes, by {} and {}", video.string(),
-                                 std::filesystem::file_size(video), files.model.string(),
-                                 options.detector.second_look_file);
+  std::string work =
+      fmt::format("geoloc_import: {} of {} bytes, by {} and {}", video.string(),
+                  std::filesystem::file_size(video), files.model.string(), options.detector.second_look_file);
   work += fmt::format(", confidence {}", options.tuning.confidence.value_or(0.0));
   for (const auto* list : {&options.tuning.tiles, &options.tuning.input_size_px}) {
     for (const int number : *list) work += fmt::format(", {}", number);
@@ -57,7 +57,8 @@ struct VideoProgram {
       labels = io::parse_labels(io::read_text_file(options.labels_file), options.labels_file);
     if (!labels) {
       const io::DetectorFiles files = detector_files(options.detector);
-      detector = io::open_detector(files, detection_of(options.detector, options.tuning, io::DetectionConfig{}));
+      detector =
+          io::open_detector(files, detection_of(options.detector, options.tuning, io::DetectionConfig{}));
       work = work_of(options, files);
     }
     recording = std::make_unique<RecordingMaker>(options.out);
@@ -80,10 +81,12 @@ struct VideoProgram {
 void tell_begin(const VideoProgram& program) {
   if (program.log.track) tell_plan(program.log.track->notes, program.log.track->assumptions);
   tell_plan({}, program.assumptions);
-  tell(fmt::format("the video begins {:.2f} s after the log's beginning, {}, to {:g} s (1 sigma): the joint method finds what "
-                   "is left, as latency{}",
-                   seconds(program.offset.after_log_begin), program.offset.how, program.offset.sigma_s,
-                   program.options.log_offset == "auto" ? " (--log-offset-s says another)" : ""));
+  tell(
+      fmt::format("the video begins {:.2f} s after the log's beginning, {}, to {:g} s (1 sigma): the joint "
+                  "method finds what "
+                  "is left, as latency{}",
+                  seconds(program.offset.after_log_begin), program.offset.how, program.offset.sigma_s,
+                  program.options.log_offset == "auto" ? " (--log-offset-s says another)" : ""));
 }
 
 std::vector<VideoLook> looks_of(VideoProgram& program, const StopSignal& stop) {
@@ -102,8 +105,10 @@ void write(VideoProgram& program, const std::vector<VideoLook>& looks) {
   io::RecordingWriter& writer = program.recording->writer();
   const std::size_t left_out =
       write_video_flight({program.log, program.camera, program.offset, looks}, writer);
-  if (left_out > 0) tell(fmt::format("{} frames are left out: how the camera looked then is not known", left_out));
-  if (program.labels && !program.labels->marks.empty()) writer.write_truth(true_targets(program.labels->marks));
+  if (left_out > 0)
+    tell(fmt::format("{} frames are left out: how the camera looked then is not known", left_out));
+  if (program.labels && !program.labels->marks.empty())
+    writer.write_truth(true_targets(program.labels->marks));
   const auto& class_names = program.labels ? program.labels->class_names : program.detector->class_names();
   if (!class_names.empty()) writer.write_class_names(class_names);
   program.recording->finish();

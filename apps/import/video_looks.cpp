@@ -18,8 +18,8 @@ namespace {
 
 /// The video from its time 0, frame by frame. Times of a file count from 1970 that way.
 std::unique_ptr<io::FileSource> open(const std::filesystem::path& file, const io::HostClock& clock) {
-  return std::make_unique<io::FileSource>(file, io::Playback{io::Pace::kAsTaken, HostTime{}}, io::VideoConfig{},
-                                          clock);
+  return std::make_unique<io::FileSource>(file, io::Playback{io::Pace::kAsTaken, HostTime{}},
+                                          io::VideoConfig{}, clock);
 }
 
 std::optional<io::VideoFrame> next_frame(io::FileSource& source) {
@@ -53,7 +53,8 @@ void for_each_frame(const std::filesystem::path& file, const char* progress_text
   if (!stop.is_requested() && !status.last_error.empty())
     notes.push_back(fmt::format("{}: ended early: {}", file.string(), status.last_error));
   if (damaged + status.refused > 0)
-    notes.push_back(fmt::format("{}: {} frames are damaged and left out", file.string(), damaged + status.refused));
+    notes.push_back(
+        fmt::format("{}: {} frames are damaged and left out", file.string(), damaged + status.refused));
 }
 
 /// The number that a picture's name is, or ends in before its extension.
@@ -68,13 +69,15 @@ std::optional<std::uint64_t> frame_number(const std::string& name) {
   return number;
 }
 
-std::map<std::uint64_t, std::vector<Detection>> by_frame(const io::Labels& labels, const std::string& labels_file) {
+std::map<std::uint64_t, std::vector<Detection>> by_frame(const io::Labels& labels,
+                                                         const std::string& labels_file) {
   std::map<std::uint64_t, std::vector<Detection>> frames;
   for (const auto& [name, detections] : labels.by_picture) {
     const auto number = frame_number(name);
     if (!number)
-      throw std::runtime_error(labels_file + ": `" + name +
-                               "` names no frame: of a video, a picture's name is the number of its frame, from 0");
+      throw std::runtime_error(
+          labels_file + ": `" + name +
+          "` names no frame: of a video, a picture's name is the number of its frame, from 0");
     frames[*number].insert(frames[*number].end(), detections.begin(), detections.end());
   }
   return frames;
@@ -90,22 +93,24 @@ VideoFacts video_facts(const std::filesystem::path& file) {
   return {source->facts(), first->bgr.cols, first->bgr.rows};
 }
 
-std::vector<VideoLook> detected_looks(const std::filesystem::path& file, io::Detector& detector, FoundFile& found,
-                                      const StopSignal& stop, std::vector<std::string>& notes) {
+std::vector<VideoLook> detected_looks(const std::filesystem::path& file, io::Detector& detector,
+                                      FoundFile& found, const StopSignal& stop,
+                                      std::vector<std::string>& notes) {
   std::size_t failed = 0;
   const bool is_resumed = !found.looks().empty();
   const std::uint64_t begin = is_resumed ? found.looks().back().frame + 1 : 0;
   if (is_resumed) notes.push_back(fmt::format("{}: goes on with frame {}", found.name().string(), begin));
-  for_each_frame(file, "looking for objects", stop, notes, [&](std::uint64_t number, const io::VideoFrame& frame) {
-    if (number < begin) return;
-    const std::uint64_t failed_before = detector.counts().failed_images;
-    VideoLook look{number, frame.captured_at.time_since_epoch(), detector.detect(frame.bgr)};
-    // A network that failed saw nothing, which must not count as that nothing was there.
-    if (detector.counts().failed_images > failed_before)
-      ++failed;
-    else
-      found.add(std::move(look));
-  });
+  for_each_frame(file, "looking for objects", stop, notes,
+                 [&](std::uint64_t number, const io::VideoFrame& frame) {
+                   if (number < begin) return;
+                   const std::uint64_t failed_before = detector.counts().failed_images;
+                   VideoLook look{number, frame.captured_at.time_since_epoch(), detector.detect(frame.bgr)};
+                   // A network that failed saw nothing, which must not count as that nothing was there.
+                   if (detector.counts().failed_images > failed_before)
+                     ++failed;
+                   else
+                     found.add(std::move(look));
+                 });
   if (failed > 0) notes.push_back(fmt::format("the network failed on {} frames, which are left out", failed));
   return found.looks();
 }
@@ -115,10 +120,12 @@ std::vector<VideoLook> labelled_looks(const std::filesystem::path& file, const i
                                       std::vector<std::string>& notes) {
   const auto labelled = by_frame(labels, labels_file);
   std::vector<VideoLook> looks;
-  for_each_frame(file, "reading the video", stop, notes, [&](std::uint64_t number, const io::VideoFrame& frame) {
-    const auto label = labelled.find(number);
-    if (label != labelled.end()) looks.push_back({number, frame.captured_at.time_since_epoch(), label->second});
-  });
+  for_each_frame(file, "reading the video", stop, notes,
+                 [&](std::uint64_t number, const io::VideoFrame& frame) {
+                   const auto label = labelled.find(number);
+                   if (label != labelled.end())
+                     looks.push_back({number, frame.captured_at.time_since_epoch(), label->second});
+                 });
   if (looks.empty() && !stop.is_requested())
     throw std::runtime_error(labels_file + ": none of its frames is in " + file.string());
   if (looks.size() < labelled.size() && !stop.is_requested())

@@ -24,8 +24,9 @@ struct VideoFacts {
 VideoFacts video_facts(const std::filesystem::path& file);
 
 /// What a detector finds, with progress, until `stop`; what `found` already has is not looked at again.
-std::vector<VideoLook> detected_looks(const std::filesystem::path& file, io::Detector& detector, FoundFile& found,
-                                      const StopSignal& stop, std::vector<std::string>& notes);
+std::vector<VideoLook> detected_looks(const std::filesystem::path& file, io::Detector& detector,
+                                      FoundFile& found, const StopSignal& stop,
+                                      std::vector<std::string>& notes);
 
 /// What people labelled: a picture's name is, or ends in, the number of its frame, counted from 0. Throws
 /// std::runtime_error for a name without one, and where no frame has labels.

@@ -14,15 +14,25 @@ namespace {
 constexpr double kExactSigma_s = 0.3;
 /// A camera takes a moment to begin, after it was told to.
 constexpr double kCommandSigma_s = 0.5;
-/// Whole seconds, of a clock that nobody looked at.
+/// Whole seconds, of which half a one is added, of a clock that nobody looked at.
 constexpr double kCreationSigma_s = 1.0;
+
+bool is_whole_second(HostTime time) {
+  return time.time_since_epoch() % std::chrono::seconds{1} == Duration{};
+}
+
+Duration by_creation(const VideoTimes& video, const LogTimes& log) {
+  const Duration half =
+      is_whole_second(*video.created_at) ? Duration{std::chrono::milliseconds{500}} : Duration{};
+  return *video.created_at + half - *log.begins_at;
+}
 
 /// The command that the video's creation time belongs to; of one command alone, that.
 std::optional<Duration> own_start(const VideoTimes& video, const LogTimes& log) {
   constexpr Duration kMostApart = std::chrono::seconds{5};
   if (log.video_starts.size() == 1) return log.video_starts.front();
   if (!video.created_at || !log.begins_at) return std::nullopt;
-  const Duration created = *video.created_at - *log.begins_at;
+  const Duration created = by_creation(video, log);
   const auto apart = [&](Duration start) { return start < created ? created - start : start - created; };
   const Duration nearest = *std::min_element(log.video_starts.begin(), log.video_starts.end(),
                                              [&](Duration a, Duration b) { return apart(a) < apart(b); });
@@ -44,7 +54,7 @@ VideoOffset automatic(const VideoTimes& video, const LogTimes& log) {
   if (log.exposures.size() == 1)
     return {log.exposures.front(), kCommandSigma_s, "by the only camera message in the log"};
   if (video.created_at && log.begins_at)
-    return {*video.created_at - *log.begins_at, kCreationSigma_s, "by the video's creation time"};
+    return {by_creation(video, log), kCreationSigma_s, "by the video's creation time"};
   throw std::runtime_error(fmt::format(
       "when the video began is not known ({}, and the log has no camera message that tells): give "
       "--log-offset-s, the seconds from the log's beginning to the video's",
@@ -57,7 +67,8 @@ void refuse_without_overlap(const VideoTimes& video, const LogTimes& log, const 
   if (end_s + 2.0 * offset.sigma_s >= 0.0 && begin_s - 2.0 * offset.sigma_s <= seconds(log.length)) return;
   throw std::runtime_error(
       fmt::format("video and log do not overlap: {}, the video is from {:.1f} to {:.1f} s after the log's "
-                  "beginning, and the log is {:.1f} s long. Give --log-offset-s, the seconds from the log's beginning to the "
+                  "beginning, and the log is {:.1f} s long. Give --log-offset-s, the seconds from the log's "
+                  "beginning to the "
                   "video's, or the log of this flight",
                   offset.how, begin_s, end_s, seconds(log.length)));
 }

@@ -13,17 +13,18 @@ namespace geoloc::apps {
 
 /// What is known of when a video was recorded.
 struct VideoTimes {
-  std::optional<HostTime> created_at;    ///< as the file tells, UTC
+  std::optional<HostTime> created_at;  ///< as the file tells, UTC
   std::optional<Duration> length;
 };
 
 /// The log's side.
 struct LogTimes {
   Duration length{};
-  std::optional<HostTime> begins_at;     ///< UTC
-  std::optional<Duration> begins_in_video;  ///< of a log that counts from the video's beginning: DJI's subtitles
-  std::vector<Duration> video_starts;    ///< commands to begin a recording, since the log's beginning
-  std::vector<Duration> exposures;       ///< of pictures
+  std::optional<HostTime> begins_at;  ///< UTC
+  std::optional<Duration>
+      begins_in_video;                 ///< of a log that counts from the video's beginning: DJI's subtitles
+  std::vector<Duration> video_starts;  ///< commands to begin a recording, since the log's beginning
+  std::vector<Duration> exposures;     ///< of pictures
 };
 
 /// When the video's time 0 was.

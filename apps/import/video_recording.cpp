@@ -19,7 +19,8 @@ nlohmann::ordered_json settings_for(const LogSource& log, const VideoOffset& off
   nlohmann::ordered_json prior{{"sigma_latency_s", offset.sigma_s}};
   nlohmann::ordered_json joint;
   if (log.track && log.track->is_heading_assumed) prior["sigma_boresight_z_deg"] = kCourseSigma_deg;
-  if (log.track && log.track->sigma_attitude_deg > 0.0) joint["sigma_attitude_deg"] = log.track->sigma_attitude_deg;
+  if (log.track && log.track->sigma_attitude_deg > 0.0)
+    joint["sigma_attitude_deg"] = log.track->sigma_attitude_deg;
   joint["prior"] = std::move(prior);
   return {{"joint", std::move(joint)}};
 }

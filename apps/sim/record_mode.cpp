@@ -34,9 +34,10 @@ CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
       "without")
       ->capture_default_str();
   program
-      .add_flag("--video", options.has_video,
-                "Also draw what the camera saw, on level ground: video.mkv in the recording; its frames are those "
-                "of frames.jsonl, whose detections stay the noise model's")
+      .add_flag(
+          "--video", options.has_video,
+          "Also draw what the camera saw, on level ground: video.mkv in the recording; its frames are those "
+          "of frames.jsonl, whose detections stay the noise model's")
       ->group(kRecordGroup)
       ->excludes(program.get_option("--hills-m"), program.get_option("--ground-above-home-m"));
   program

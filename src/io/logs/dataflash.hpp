@@ -41,8 +41,8 @@ class DataflashRecord {
   const char* bytes_;
 };
 
-/// Calls `take` for every record but FMT, in their order. What is no record is skipped; returns how many bytes
-/// that were.
+/// Calls `take` for every record but FMT, in their order. What is no record is skipped; returns how many
+/// bytes that were.
 std::size_t for_each_dataflash_record(std::string_view bytes,
                                       const std::function<void(const DataflashRecord&)>& take);
 

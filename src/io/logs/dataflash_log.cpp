@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 constexpr Duration kLeapSeconds = 18s;
 constexpr Duration kGpsEpoch = 315'964'800s;  // 6 January 1980, since 1970
 constexpr double kFix3d = 3.0;
-constexpr double kHome = 1.0;                  // of ORGN's types
+constexpr double kHome = 1.0;  // of ORGN's types
 
 /// The first of the names that the record has and that is a number.
 std::optional<double> first_of(const DataflashRecord& record, std::initializer_list<const char*> names) {
@@ -95,7 +95,8 @@ class DataflashCollector {
         if (fix.fix_type >= kFix3d)
           keep(log_.positions, {fix.time, fix.position, {std::nullopt, fix.height_msl_m, std::nullopt}});
       }
-      log_.assumptions.emplace_back("the log has neither POS nor AHR2: positions are the receiver's, unfiltered");
+      log_.assumptions.emplace_back(
+          "the log has neither POS nor AHR2: positions are the receiver's, unfiltered");
     }
     log_.skipped_bytes = skipped_bytes;
     finish(log_);
@@ -112,8 +113,9 @@ class DataflashCollector {
                             std::vector<LoggedPosition>& positions) {
     const auto place = place_of(record);
     if (!place) return;
-    keep(positions,
-         {time, *place, {first_of(record, {"RelHomeAlt", "RelAlt"}), first_of(record, {"Alt"}), std::nullopt}});
+    keep(positions, {time,
+                     *place,
+                     {first_of(record, {"RelHomeAlt", "RelAlt"}), first_of(record, {"Alt"}), std::nullopt}});
   }
 
   void take_fix(const DataflashRecord& record, VehicleTime time) {
@@ -132,8 +134,8 @@ class DataflashCollector {
     const auto week = first_of(record, {"GWk", "Week"}), within_ms = first_of(record, {"GMS", "TimeMS"});
     if (!week || !within_ms || fix_type < kFix3d) return;
     if (!(*week > 0.0 && *week < kMostWeek && *within_ms >= 0.0 && *within_ms < kWeek_ms)) return;
-    const Duration since_epoch = std::chrono::hours{168} * std::llround(*week) +
-                                 std::chrono::milliseconds{std::llround(*within_ms)};
+    const Duration since_epoch =
+        std::chrono::hours{168} * std::llround(*week) + std::chrono::milliseconds{std::llround(*within_ms)};
     keep(log_.utc, {time, HostTime{kGpsEpoch + since_epoch - kLeapSeconds}});
   }
 
@@ -149,7 +151,8 @@ class DataflashCollector {
   }
 
   void take_velocity(const DataflashRecord& record, VehicleTime time) {
-    const auto north = first_of(record, {"VN"}), east = first_of(record, {"VE"}), down = first_of(record, {"VD"});
+    const auto north = first_of(record, {"VN"}), east = first_of(record, {"VE"}),
+               down = first_of(record, {"VD"});
     if (is_first_instance(record) && north && east && down)
       keep(log_.velocities, {time, Eigen::Vector3d(*east, *north, -*down)});
   }
@@ -171,7 +174,9 @@ class DataflashCollector {
 
   void drop_exposures() {
     auto& events = log_.camera_events;
-    const auto is_exposure = [](const CameraEvent& event) { return event.kind == CameraEventKind::kExposure; };
+    const auto is_exposure = [](const CameraEvent& event) {
+      return event.kind == CameraEventKind::kExposure;
+    };
     events.erase(std::remove_if(events.begin(), events.end(), is_exposure), events.end());
   }
 

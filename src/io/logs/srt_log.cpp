@@ -15,8 +15,8 @@ namespace {
 /// `BAROMETER(91.2)`, `GPS (a, b, c)`. nullopt where the key is not there as a word of its own.
 std::optional<std::string_view> behind(std::string_view text, std::string_view key) {
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
-    const bool is_begin = at == 0 || (std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0 &&
-                                      text[at - 1] != '_');
+    const bool is_begin =
+        at == 0 || (std::isalnum(static_cast<unsigned char>(text[at - 1])) == 0 && text[at - 1] != '_');
     const std::size_t end = std::min(text.find_first_not_of(' ', at + key.size()), text.size());
     if (!is_begin || end == text.size()) continue;
     if (text[end] == ':' || text[end] == '(') return text.substr(end + 1);
@@ -86,10 +86,12 @@ class SubtitleCollector {
   FlightLog finished() {
     if (is_order_taken_)
       log_.assumptions.emplace_back(
-          is_latitude_first_ ? "the subtitles' GPS(…) is taken to be latitude, longitude, as with BAROMETER(…)"
-                             : "the subtitles' GPS(…) is taken to be longitude, latitude, as DJI wrote it");
+          is_latitude_first_
+              ? "the subtitles' GPS(…) is taken to be latitude, longitude, as with BAROMETER(…)"
+              : "the subtitles' GPS(…) is taken to be longitude, latitude, as DJI wrote it");
     if (is_zoom_changed_)
-      log_.assumptions.emplace_back("the camera zoomed during the video: the focal length at its beginning is taken");
+      log_.assumptions.emplace_back(
+          "the camera zoomed during the video: the focal length at its beginning is taken");
     log_.is_utc_local = true;
     finish(log_);
     return std::move(log_);
@@ -148,9 +150,9 @@ class SubtitleCollector {
                roll_deg = value_of(text, "gb_roll");
     if (!yaw_deg || !pitch_deg || !roll_deg) return;
     if (std::max({std::abs(*yaw_deg), std::abs(*pitch_deg), std::abs(*roll_deg)}) > kMost_deg) return;
-    keep(log_.gimbal,
-         {time, {*roll_deg * kRadPerDeg, *pitch_deg * kRadPerDeg, wrap_to_pi(*yaw_deg * kRadPerDeg)},
-          GimbalYaw::kFromNorth});
+    keep(log_.gimbal, {time,
+                       {*roll_deg * kRadPerDeg, *pitch_deg * kRadPerDeg, wrap_to_pi(*yaw_deg * kRadPerDeg)},
+                       GimbalYaw::kFromNorth});
   }
 
   FlightLog log_;

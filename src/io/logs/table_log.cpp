@@ -79,13 +79,15 @@ class TableReader {
     const auto number = [&](std::string_view name) { return number_in(cells, name); };
     if (const auto angles = angles_of(number("roll_deg"), number("pitch_deg"), number("yaw_deg")))
       keep(log.attitudes, {time, *angles});
-    if (const auto angles = angles_of(number("gimbal_roll_deg"), number("gimbal_pitch_deg"), number("gimbal_yaw_deg")))
+    if (const auto angles =
+            angles_of(number("gimbal_roll_deg"), number("gimbal_pitch_deg"), number("gimbal_yaw_deg")))
       keep(log.gimbal, {time, *angles, GimbalYaw::kFromNorth});
     if (!log.focal_35mm_mm) log.focal_35mm_mm = number("focal_35mm_mm");
     const auto latitude_deg = number("lat"), longitude_deg = number("lon");
     if (!latitude_deg || !longitude_deg || !is_place({*latitude_deg, *longitude_deg})) return;
     const Geodetic place{*latitude_deg, *longitude_deg};
-    const LoggedHeights heights{number("height_above_home_m"), number("alt_msl_m"), number("alt_ellipsoid_m")};
+    const LoggedHeights heights{number("height_above_home_m"), number("alt_msl_m"),
+                                number("alt_ellipsoid_m")};
     keep(log.positions, {time, place, heights});
     if (const auto sigma_m = number("sigma_horizontal_m"))
       keep(log.fixes, {time, place, heights.msl_m, 3, sigma_m, std::nullopt});

@@ -61,8 +61,8 @@ std::optional<Declaration> declaration_in(std::string_view text) {
   declared.type = declared.type.substr(0, bracket);
   declared.is_array = true;
   const auto parsed = std::from_chars(count.data(), count.data() + count.size(), declared.count);
-  const bool is_whole = parsed.ec == std::errc{} && count.substr(static_cast<std::size_t>(
-                                                       parsed.ptr - count.data())) == "]";
+  const bool is_whole =
+      parsed.ec == std::errc{} && count.substr(static_cast<std::size_t>(parsed.ptr - count.data())) == "]";
   if (!is_whole || declared.count > kLargestMessage) return std::nullopt;
   return declared;
 }

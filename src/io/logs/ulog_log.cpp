@@ -12,12 +12,16 @@
 namespace geoloc::io {
 namespace {
 
-
-const UlogTopics kTopics{"vehicle_attitude",     "vehicle_global_position",
-                         "vehicle_local_position", "vehicle_gps_position",
-                         "sensor_gps",           "home_position",
-                         "gimbal_device_attitude_status", "mount_orientation",
-                         "camera_capture",       "camera_trigger",
+const UlogTopics kTopics{"vehicle_attitude",
+                         "vehicle_global_position",
+                         "vehicle_local_position",
+                         "vehicle_gps_position",
+                         "sensor_gps",
+                         "home_position",
+                         "gimbal_device_attitude_status",
+                         "mount_orientation",
+                         "camera_capture",
+                         "camera_trigger",
                          "vehicle_command"};
 
 std::optional<double> finite(const UlogSample& sample, std::string_view field) {
@@ -71,9 +75,8 @@ Geodetic from_plane(const Geodetic& reference, double north_m, double east_m) {
   const double latitude_rad = reference.latitude_deg * kRadPerDeg;
   const double sine = std::sin(latitude_rad) * std::cos(distance_rad) +
                       std::cos(latitude_rad) * std::sin(distance_rad) * std::cos(bearing_rad);
-  const double turn_rad =
-      std::atan2(std::sin(bearing_rad) * std::sin(distance_rad) * std::cos(latitude_rad),
-                 std::cos(distance_rad) - std::sin(latitude_rad) * sine);
+  const double turn_rad = std::atan2(std::sin(bearing_rad) * std::sin(distance_rad) * std::cos(latitude_rad),
+                                     std::cos(distance_rad) - std::sin(latitude_rad) * sine);
   return {std::asin(sine) * kDegPerRad, reference.longitude_deg + turn_rad * kDegPerRad};
 }
 
@@ -117,7 +120,8 @@ class UlogCollector {
     if (!latitude_deg || !longitude_deg || sample.number("lat_lon_valid") == 0.0) return;
     const Geodetic place{*latitude_deg, *longitude_deg};
     if (is_place(place))
-      keep(log_.positions, {time, place, {std::nullopt, finite(sample, "alt"), finite(sample, "alt_ellipsoid")}});
+      keep(log_.positions,
+           {time, place, {std::nullopt, finite(sample, "alt"), finite(sample, "alt_ellipsoid")}});
   }
 
   void take_local(const UlogSample& sample, VehicleTime time) {
@@ -179,10 +183,10 @@ class UlogCollector {
       return;
     }
     const auto angles = angles_of(sample);
-    const auto flags = static_cast<unsigned>(std::clamp(finite(sample, "device_flags").value_or(0.0), 0.0, 65535.0));
-    const bool is_from_north = (flags & (kInVehicleFrame | kInEarthFrame)) != 0
-                                   ? (flags & kInEarthFrame) != 0
-                                   : (flags & kYawLock) != 0;
+    const auto flags =
+        static_cast<unsigned>(std::clamp(finite(sample, "device_flags").value_or(0.0), 0.0, 65535.0));
+    const bool is_from_north = (flags & (kInVehicleFrame | kInEarthFrame)) != 0 ? (flags & kInEarthFrame) != 0
+                                                                                : (flags & kYawLock) != 0;
     if (angles)
       keep(log_.gimbal, {time, *angles, is_from_north ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose});
   }

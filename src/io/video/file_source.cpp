@@ -29,7 +29,8 @@ std::optional<HostTime> creation_time_of(const GstTagList* tags) {
   GstDateTime* told = nullptr;
   if (gst_tag_list_get_date_time(tags, GST_TAG_DATE_TIME, &told) == FALSE) return std::nullopt;
   std::optional<HostTime> created_at;
-  GDateTime* const time = gst_date_time_has_second(told) != FALSE ? gst_date_time_to_g_date_time(told) : nullptr;
+  GDateTime* const time =
+      gst_date_time_has_second(told) != FALSE ? gst_date_time_to_g_date_time(told) : nullptr;
   if (time != nullptr) {
     created_at = HostTime{std::chrono::seconds{g_date_time_to_unix(time)} +
                           std::chrono::microseconds{g_date_time_get_microsecond(time)}};
@@ -181,8 +182,8 @@ class FileSource::Impl {
   FrameExchange exchange_;
   mutable std::mutex tags_mutex_;
   std::optional<HostTime> created_at_;  // guarded by tags_mutex_
-  GstElement* converter_ = nullptr;  // owned by the pipeline
-  GstPipelinePtr pipeline_;          // last: its threads end before what they use
+  GstElement* converter_ = nullptr;     // owned by the pipeline
+  GstPipelinePtr pipeline_;             // last: its threads end before what they use
 };
 
 FileSource::FileSource(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,

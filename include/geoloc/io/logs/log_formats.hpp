@@ -14,8 +14,8 @@ namespace geoloc::io {
 /// TRIG, MAVC, with the fields of any version since 3.2. Time is since boot.
 FlightLog parse_dataflash(std::string_view bytes);
 
-/// PX4's ULog, .ulg: vehicle_attitude, vehicle_global_position (or vehicle_local_position), GNSS, home, gimbal,
-/// camera and command topics. Time is since boot.
+/// PX4's ULog, .ulg: vehicle_attitude, vehicle_global_position (or vehicle_local_position), GNSS, home,
+/// gimbal, camera and command topics. Time is since boot.
 FlightLog parse_ulog(std::string_view bytes);
 
 /// DJI's subtitles, .SRT, of any of the dialects in docs/import.md. Time is since the video's beginning.
