@@ -65,7 +65,7 @@ class Dataflash:
         self.bytes += b"\xa3\x95" + bytes([number]) + struct.pack("<" + "".join(SIZES[kind] for kind in types), *scaled)
 
 
-def to_dataflash(flight, video_start_us=None, gimbal=()):
+def to_dataflash(flight, video_starts_us=(), gimbal=()):
     """As ArduPilot 4.5 writes it. Angles are hundredths of a degree there."""
     log = Dataflash()
     log.define("ATT", "QccccCCCCB", "TimeUS,DesRoll,Roll,DesPitch,Pitch,DesYaw,Yaw,ErrRP,ErrYaw,AEKF")
@@ -87,8 +87,8 @@ def to_dataflash(flight, video_start_us=None, gimbal=()):
         events.append((time, "GPA", (0, 1.2, h_acc_m, v_acc_m, 0.1)))
     for time, roll_deg, pitch_deg, yaw_deg in gimbal:
         events.append((time, "MNT", (0, 0, roll_deg, 0, pitch_deg, 0, 0, 0, yaw_deg, 0)))
-    if video_start_us is not None:
-        events.append((video_start_us, "MAVC", (1, 100, 255, 190, 0, 2500, 0, 0, 0, 0, 0, 0, 0, 0, 0)))
+    for time in video_starts_us:
+        events.append((time, "MAVC", (1, 100, 255, 190, 0, 2500, 0, 0, 0, 0, 0, 0, 0, 0, 0)))
     for time, name, values in sorted(events, key=lambda event: event[0]):
         log.add(name, time, *values)
     return bytes(log.bytes)
@@ -124,7 +124,7 @@ def quaternion(roll, pitch, yaw):
             cr * cp * sy - sr * sp * cy)
 
 
-def to_ulog(flight, video_start_us=None, gimbal=()):
+def to_ulog(flight, video_starts_us=(), gimbal=()):
     """As PX4 1.14 writes it; heights count from the sea, and home tells its own."""
     log = Ulog(flight.begin_us())
     log.define("vehicle_attitude", "QQ4f", "uint64_t timestamp;uint64_t timestamp_sample;float[4] q")
@@ -148,8 +148,8 @@ def to_ulog(flight, video_start_us=None, gimbal=()):
         events.append((time, "gimbal_device_attitude_status", (*quaternion(*map(math.radians, angles_deg)), 64)))
     time, lat, lon, alt, above_home, _ = flight.positions[0]
     events.append((flight.begin_us(), "home_position", (lat, lon, alt - above_home, 1)))
-    if video_start_us is not None:
-        events.append((video_start_us, "vehicle_command", (2500,)))
+    for time in video_starts_us:
+        events.append((time, "vehicle_command", (2500,)))
     for time, name, values in sorted(events, key=lambda event: event[0]):
         log.sample(name, time, *values)
     return bytes(log.bytes)

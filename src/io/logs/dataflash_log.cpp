@@ -90,14 +90,6 @@ class DataflashCollector {
       log_.positions = std::move(second_positions_);
       log_.assumptions.emplace_back("the log has no POS: positions are those of AHR2");
     }
-    if (log_.positions.empty()) {
-      for (const LoggedFix& fix : log_.fixes) {
-        if (fix.fix_type >= kFix3d)
-          keep(log_.positions, {fix.time, fix.position, {std::nullopt, fix.height_msl_m, std::nullopt}});
-      }
-      log_.assumptions.emplace_back(
-          "the log has neither POS nor AHR2: positions are the receiver's, unfiltered");
-    }
     log_.skipped_bytes = skipped_bytes;
     finish(log_);
     return std::move(log_);

@@ -46,9 +46,21 @@ void sort_by_time(std::vector<Sample>& samples) {
     std::stable_sort(samples.begin(), samples.end(), is_earlier);
 }
 
+/// Where no estimator's positions are told, the receiver's stand for them.
+inline void take_positions_of_fixes(FlightLog& log) {
+  constexpr int kFix3d = 3;
+  if (!log.positions.empty()) return;
+  for (const LoggedFix& fix : log.fixes) {
+    if (fix.fix_type >= kFix3d && is_place(fix.position))
+      keep(log.positions, {fix.time, fix.position, {std::nullopt, fix.height_msl_m, std::nullopt}});
+  }
+  log.assumptions.emplace_back("the log has no filtered positions: they are the receiver's own");
+}
+
 /// The last thing that each reader does.
 inline void finish(FlightLog& log) {
-  if (log.positions.empty()) throw std::runtime_error("holds no position of the vehicle");
+  take_positions_of_fixes(log);
+  if (log.positions.empty()) throw std::runtime_error("holds no position: the vehicle never knew where it was");
   sort_by_time(log.attitudes);
   sort_by_time(log.positions);
   sort_by_time(log.velocities);
