@@ -34,8 +34,9 @@ Duration utc_since(const std::vector<io::UtcPair>& pairs) {
 void take_utc(const io::FlightLog& log, std::optional<double> utc_offset_h, FlightTrack& track) {
   track.is_utc_known = !log.utc.empty();
   if (!track.is_utc_known) {
-    track.assumptions.emplace_back(
-        "the log tells no date: the times in the results count from 1 January 1970");
+    constexpr Duration kSecondDay = 24h;  // a video may begin before its log
+    track.utc_since_log = kSecondDay - track.begin.time_since_epoch();
+    track.assumptions.emplace_back("the log tells no date: in the results it begins on 2 January 1970");
     return;
   }
   track.utc_since_log = utc_since(log.utc);
@@ -130,7 +131,6 @@ FlightTrack track_of(io::FlightLog log, const TrackFacts& facts) {
   FlightTrack track;
   track.assumptions = log.assumptions;
   note_damage(log, track);
-  take_utc(log, facts.utc_offset_h, track);
   track.positions = positions_above_home(log, facts.take_off_height_m, track.assumptions);
   drop_held_positions(track.positions);
   take_velocities(log.velocities, track.positions);
@@ -138,6 +138,7 @@ FlightTrack track_of(io::FlightLog log, const TrackFacts& facts) {
   track.fixes = std::move(log.fixes);
   track.begin = std::min(track.positions.front().time, track.attitudes.front().time);
   track.end = std::max(track.positions.back().time, track.attitudes.back().time);
+  take_utc(log, facts.utc_offset_h, track);
   if (track.end - track.begin > kLongestLog)
     throw std::runtime_error(
         fmt::format("spans {:.1f} days: cut out the flight", seconds(track.end - track.begin) / 86400.0));

@@ -175,7 +175,7 @@ class VideosAndLogsThatDoNotFit(VideoTest):
         self.refuse(table, "when the video began is not known (the log tells no UTC", "--log-offset-s")
         self.refuse(table, "video and log do not overlap", arguments=("--log-offset-s", 5000))
         self.refuse(table, "neither `auto` nor a number of seconds", arguments=("--log-offset-s", "soon"))
-        self.assertIn("count from 1 January 1970", self.imported(table, "--labels", self.labels(), "--log-offset-s", 3))
+        self.assertIn("begins on 2 January 1970", self.imported(table, "--labels", self.labels(), "--log-offset-s", 3))
 
     def test_of_several_commands_the_creation_time_tells_which(self):
         starts_us = [self.stamps_us[0] - 30_000_000, self.stamps_us[0], self.stamps_us[0] + 30_000_000]

@@ -60,7 +60,8 @@ inline void take_positions_of_fixes(FlightLog& log) {
 /// The last thing that each reader does.
 inline void finish(FlightLog& log) {
   take_positions_of_fixes(log);
-  if (log.positions.empty()) throw std::runtime_error("holds no position: the vehicle never knew where it was");
+  if (log.positions.empty())
+    throw std::runtime_error("holds no position: the vehicle never knew where it was");
   sort_by_time(log.attitudes);
   sort_by_time(log.positions);
   sort_by_time(log.velocities);

@@ -7,6 +7,7 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/logs/log_formats.hpp"
 #include "io/logs/log_builder.hpp"
+#include "io/logs/px4_plane.hpp"
 #include "io/logs/ulog.hpp"
 
 namespace geoloc::io {
@@ -66,20 +67,6 @@ std::optional<Geodetic> fix_place(const UlogSample& sample) {
   return Geodetic{*latitude / 1e7, *longitude / 1e7};
 }
 
-/// PX4's plane about its reference: azimuths and distances from there are true, on a sphere.
-Geodetic from_plane(const Geodetic& reference, double north_m, double east_m) {
-  constexpr double kRadius_m = 6'371'000.0;
-  const double distance_rad = std::hypot(north_m, east_m) / kRadius_m;
-  if (distance_rad == 0.0) return reference;
-  const double bearing_rad = std::atan2(east_m, north_m);
-  const double latitude_rad = reference.latitude_deg * kRadPerDeg;
-  const double sine = std::sin(latitude_rad) * std::cos(distance_rad) +
-                      std::cos(latitude_rad) * std::sin(distance_rad) * std::cos(bearing_rad);
-  const double turn_rad = std::atan2(std::sin(bearing_rad) * std::sin(distance_rad) * std::cos(latitude_rad),
-                                     std::cos(distance_rad) - std::sin(latitude_rad) * sine);
-  return {std::asin(sine) * kDegPerRad, reference.longitude_deg + turn_rad * kDegPerRad};
-}
-
 /// Takes the samples one by one.
 class UlogCollector {
  public:
@@ -133,7 +120,7 @@ class UlogCollector {
     if (!place || !reference || sample.number("xy_global") == 0.0 || sample.number("xy_valid") == 0.0) return;
     const Geodetic origin{reference->x(), reference->y()};
     if (!is_place(origin)) return;
-    const Geodetic here = from_plane(origin, place->x(), place->y());
+    const Geodetic here = from_px4_plane(origin, place->x(), place->y());
     if (is_place(here))
       keep(local_positions_, {time, here, {std::nullopt, reference->z() - place->z(), std::nullopt}});
   }

@@ -24,22 +24,6 @@ std::optional<Duration> time_of(GstSample* sample) {
   return Duration{static_cast<std::int64_t>(running)};
 }
 
-/// What the container tells, to the second or better; nullopt without a whole date and time.
-std::optional<HostTime> creation_time_of(const GstTagList* tags) {
-  GstDateTime* told = nullptr;
-  if (gst_tag_list_get_date_time(tags, GST_TAG_DATE_TIME, &told) == FALSE) return std::nullopt;
-  std::optional<HostTime> created_at;
-  GDateTime* const time =
-      gst_date_time_has_second(told) != FALSE ? gst_date_time_to_g_date_time(told) : nullptr;
-  if (time != nullptr) {
-    created_at = HostTime{std::chrono::seconds{g_date_time_to_unix(time)} +
-                          std::chrono::microseconds{g_date_time_get_microsecond(time)}};
-    g_date_time_unref(time);
-  }
-  gst_date_time_unref(told);
-  return created_at;
-}
-
 }  // namespace
 
 class FileSource::Impl {
