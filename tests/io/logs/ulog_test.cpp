@@ -30,12 +30,12 @@ const std::string kDefinitions =
     message('F', "vehicle_global_position:uint64_t timestamp;double lat;double lon;float alt;") +
     message('A', packed(std::uint8_t{0}, std::uint16_t{7}) + "vehicle_global_position");
 
-std::string position(std::uint64_t time_us) {
+std::string placed(std::uint64_t time_us) {
   return message('D', packed(std::uint16_t{7}, time_us, 47.5, 8.5, 488.5F));
 }
 
 TEST(Ulog, SamplesAreReadAsTheirFormatsTell) {
-  const FlightLog log = parse_ulog(kHeader + flags(0) + kDefinitions + position(1'500'000));
+  const FlightLog log = parse_ulog(kHeader + flags(0) + kDefinitions + placed(1'500'000));
   ASSERT_EQ(log.positions.size(), 1U);
   EXPECT_EQ(log.positions[0].time, VehicleTime{1500ms});
   EXPECT_EQ(log.positions[0].position.latitude_deg, 47.5);
@@ -61,25 +61,25 @@ TEST(Ulog, FormatsThatHoldThemselvesOrMoreThanAMessageAreNone) {
 
 TEST(Ulog, DamageCostsTheMessagesThatItHits) {
   const std::string damage = "\xff\xff\xff\xff\xff";
-  const FlightLog log = parse_ulog(kHeader + kDefinitions + position(1'000) + damage + position(2'000) +
-                                   position(3'000) + position(4'000).substr(0, 10));
-  ASSERT_EQ(log.positions.size(), 3U);
-  EXPECT_EQ(log.positions[2].time, VehicleTime{3ms});
+  const FlightLog log = parse_ulog(kHeader + kDefinitions + placed(1'000) + damage + placed(2'000) +
+                                   placed(3'000) + placed(4'000) + placed(5'000).substr(0, 10));
+  ASSERT_EQ(log.positions.size(), 4U);
+  EXPECT_EQ(log.positions[3].time, VehicleTime{4ms});
   EXPECT_EQ(log.skipped_bytes, damage.size() + 10U);
 }
 
 TEST(Ulog, WhatWasAppendedIsReadThoughTheMessageBeforeItIsCut) {
   const std::string begin =
-      kHeader + flags(1, 0) + kDefinitions + position(1'000) + position(2'000).substr(0, 12);
+      kHeader + flags(1, 0) + kDefinitions + placed(1'000) + placed(2'000).substr(0, 12);
   const std::string whole = kHeader + flags(1, begin.size()) + begin.substr(kHeader.size() + flags(0).size());
-  const FlightLog log = parse_ulog(whole + position(3'000));
+  const FlightLog log = parse_ulog(whole + placed(3'000));
   ASSERT_EQ(log.positions.size(), 2U);
   EXPECT_EQ(log.positions[1].time, VehicleTime{3ms});
   EXPECT_EQ(log.skipped_bytes, 12U);
 }
 
 TEST(Ulog, LogsOfALaterKindAreRefused) {
-  EXPECT_THROW(parse_ulog(kHeader + flags(2) + kDefinitions + position(1'000)), std::runtime_error);
+  EXPECT_THROW(parse_ulog(kHeader + flags(2) + kDefinitions + placed(1'000)), std::runtime_error);
   EXPECT_THROW(parse_ulog("something else"), std::runtime_error);
 }
 
