@@ -132,7 +132,9 @@ class LogOracles(AppTest):
             positions = [(attitudes[0][0], 1.0, 2.0, 3.0, 0.0)]
             place.sample("vehicle_global_position", *positions[0][:4])
             original, file = file, self.folder / f"placed-{file.name}"
-            file.write_bytes(original.read_bytes() + place.bytes[16 + 3 + 40:])
+            content, flags = original.read_bytes(), 3 + 40  # the message with flags comes first, if there is one
+            begin = 16 + (flags if content[18:19] == b"B" else 0)
+            file.write_bytes(content[:begin] + place.bytes[16 + flags:] + content[begin:])
         begin_us = min(attitudes[0][0], positions[0][0])
         messages = self.import_log(file, "--log-offset-s", 1)
         self.assert_attitudes(messages, [(time - begin_us, *rest) for time, *rest in attitudes])
