@@ -194,12 +194,13 @@ def to_srt(flight, frames_us, gimbal_deg=None):
 
 
 def to_table(flight):
-    """Attitudes and positions in lines of their own, by UTC."""
-    rows = [(time, "", "", "", "", *(f"{math.degrees(angle):.7f}" for angle in angles)) for time, *angles in flight.attitudes]
-    rows += [(time, f"{lat:.7f}", f"{lon:.7f}", f"{above_home:.3f}", f"{alt:.3f}", "", "", "")
-             for time, lat, lon, alt, above_home, _ in flight.positions]
-    lines = ["utc,lat,lon,height_above_home_m,alt_msl_m,roll_deg,pitch_deg,yaw_deg"]
+    """Attitudes and positions in lines of their own, by UTC; accuracies are those of the fix before."""
+    rows = [(time, "", "", "", "", "", *(f"{math.degrees(angle):.7f}" for angle in angles)) for time, *angles in flight.attitudes]
+    for time, lat, lon, alt, above_home, _ in flight.positions:
+        accuracy_m = [fix[5] for fix in flight.fixes if fix[0] <= time or fix is flight.fixes[0]][-1]
+        rows.append((time, f"{lat:.7f}", f"{lon:.7f}", f"{above_home:.3f}", f"{alt:.3f}", accuracy_m, "", "", ""))
+    lines = ["utc,lat,lon,height_above_home_m,alt_msl_m,sigma_horizontal_m,roll_deg,pitch_deg,yaw_deg"]
     for time, *cells in sorted(rows, key=lambda row: row[0]):
         utc = datetime.datetime.fromtimestamp((time + flight.utc_us) / 1e6, datetime.timezone.utc)
-        lines.append(",".join([utc.strftime("%Y-%m-%dT%H:%M:%S.%fZ"), *cells]))
+        lines.append(",".join([utc.strftime("%Y-%m-%dT%H:%M:%S.%fZ"), *map(str, cells)]))
     return "\n".join(lines) + "\n"
