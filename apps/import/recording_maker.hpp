@@ -27,6 +27,9 @@ class RecordingMaker {
   void write_truth(const std::vector<io::TrueTarget>& targets) { writer_.write_truth(targets); }
   void write_class_names(const std::vector<std::string>& names) { writer_.write_class_names(names); }
 
+  /// For recordings of other things than pictures.
+  io::RecordingWriter& writer() { return writer_; }
+
   /// Gives the recording its name.
   void finish();
 

@@ -10,6 +10,7 @@
 #include "geoloc/sim/flight/recording_generator.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/sim/live/rangefinder.hpp"
+#include "sim/flight_video.hpp"
 #include "sim/option_groups.hpp"
 
 namespace geoloc::sim {
@@ -32,6 +33,13 @@ CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
       "Height of the ground above the place of take-off, m; the flight is as high above the ground as "
       "without")
       ->capture_default_str();
+  program
+      .add_flag(
+          "--video", options.has_video,
+          "Also draw what the camera saw, on level ground: video.mkv in the recording; its frames are those "
+          "of frames.jsonl, whose detections stay the noise model's")
+      ->group(kRecordGroup)
+      ->excludes(program.get_option("--hills-m"), program.get_option("--ground-above-home-m"));
   program
       .add_flag("--rangefinder", options.has_rangefinder,
                 "The vehicle measures the distance to the ground below it (DISTANCE_SENSOR)")
@@ -64,6 +72,9 @@ int run_record_mode(const RunOptions& run, const RecordOptions& options, std::ui
   }
   try {
     write_recording(options.folder, *flight, settings);
+    if (options.has_video)
+      write_flight_video(std::filesystem::path(options.folder) / "video.mkv", *flight, settings.run,
+                         generate_frames(*flight, settings, make_targets(settings.run)));
   } catch (const std::exception& error) {
     return fail(error, 1);
   }

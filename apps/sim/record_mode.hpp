@@ -16,12 +16,13 @@ struct RecordOptions {
   DetectorModel detector;
   Terrain terrain;
   bool has_rangefinder = false;
+  bool has_video = false;
 };
 
 /// Adds --record and the noise model's options; returns the one that chooses this mode.
 CLI::Option* add_record_options(CLI::App& program, RecordOptions& options);
 
-/// Writes a recording without video; the program's exit status.
+/// Writes a recording, with video.mkv if asked for; the program's exit status.
 int run_record_mode(const RunOptions& run, const RecordOptions& options, std::uint64_t seed);
 
 }  // namespace geoloc::sim

@@ -25,6 +25,7 @@ constexpr double kMarkSize_px = 40.0;
 constexpr double kMarkConfidence = 0.95;
 constexpr double kLargestPixel = 1e6;
 constexpr double kLargestClass = 1e6;
+constexpr double kMostFrames = 1e9;
 
 using Words = std::vector<std::string>;
 
@@ -163,11 +164,14 @@ void take_class_name(const nlohmann::json& detection, int class_id, std::vector<
 void take_json_line(const std::string& line, Labels& labels) {
   const nlohmann::json value = nlohmann::json::parse(line, nullptr, false);
   if (!value.is_object()) refuse("not a JSON object");
-  if (value.contains("frame")) refuse("is of a video, not of a picture");
   const nlohmann::json& image = member(value, "image");
   const nlohmann::json& found = member(value, "detections");
   if (!image.is_string() || !found.is_array()) refuse("image must be a name, and detections a list");
-  std::vector<Detection>& detections = labels.by_picture[label_key(image.get<std::string>())];
+  // A frame of a video goes by its number.
+  const std::string picture = value.contains("frame")
+                                  ? std::to_string(whole_number(value["frame"], "frame", kMostFrames))
+                                  : image.get<std::string>();
+  std::vector<Detection>& detections = labels.by_picture[label_key(picture)];
   for (const nlohmann::json& detection : found) {
     detections.push_back(detection_from_json(detection));
     take_class_name(detection, detections.back().class_id, labels.class_names);

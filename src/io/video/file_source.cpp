@@ -2,6 +2,7 @@
 #include "geoloc/io/video/file_source.hpp"
 
 #include <exception>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -44,6 +45,18 @@ class FileSource::Impl {
 
   std::optional<VideoFrame> next(Duration timeout) { return exchange_.take(timeout); }
   VideoStatus status() const { return exchange_.status(clock_.now()); }
+
+  FileFacts facts() const {
+    FileFacts facts;
+    {
+      const std::lock_guard lock(tags_mutex_);
+      facts.created_at = created_at_;
+    }
+    gint64 length_ns = 0;
+    if (gst_element_query_duration(pipeline_.get(), GST_FORMAT_TIME, &length_ns) != FALSE && length_ns > 0)
+      facts.duration = Duration{length_ns};
+    return facts;
+  }
 
  private:
   bool is_ended() const { return status().state == VideoState::kEnded; }
@@ -101,8 +114,19 @@ class FileSource::Impl {
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) {
       static_cast<Impl*>(self)->exchange_.report_error(error_text(message));
       static_cast<Impl*>(self)->exchange_.end();
+    } else if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_TAG) {
+      static_cast<Impl*>(self)->note_tags(message);
     }
     return GST_BUS_PASS;
+  }
+
+  void note_tags(GstMessage* message) {
+    GstTagList* tags = nullptr;
+    gst_message_parse_tag(message, &tags);
+    const auto told = creation_time_of(tags);
+    gst_tag_list_unref(tags);
+    const std::lock_guard lock(tags_mutex_);
+    if (told) created_at_ = told;
   }
 
   static GstFlowReturn on_sample(GstAppSink* sink, gpointer self) {
@@ -140,8 +164,10 @@ class FileSource::Impl {
   const VideoConfig config_;
   const HostClock& clock_;
   FrameExchange exchange_;
-  GstElement* converter_ = nullptr;  // owned by the pipeline
-  GstPipelinePtr pipeline_;          // last: its threads end before what they use
+  mutable std::mutex tags_mutex_;
+  std::optional<HostTime> created_at_;  // guarded by tags_mutex_
+  GstElement* converter_ = nullptr;     // owned by the pipeline
+  GstPipelinePtr pipeline_;             // last: its threads end before what they use
 };
 
 FileSource::FileSource(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
@@ -156,6 +182,10 @@ std::optional<VideoFrame> FileSource::next(Duration timeout) {
 
 VideoStatus FileSource::status() const {
   return impl_->status();
+}
+
+FileFacts FileSource::facts() const {
+  return impl_->facts();
 }
 
 }  // namespace geoloc::io

@@ -3,6 +3,7 @@
 
 #include <gst/video/video.h>
 
+#include <chrono>
 #include <stdexcept>
 #include <string_view>
 
@@ -40,6 +41,21 @@ GstElement* add_bgr_sink(GstElement* pipeline, GstAppSinkCallbacks callbacks, vo
   g_object_set(sink, "caps", caps.get(), "max-buffers", 1U, "qos", FALSE, nullptr);
   gst_app_sink_set_callbacks(GST_APP_SINK(sink), &callbacks, user, nullptr);
   return sink;
+}
+
+std::optional<HostTime> creation_time_of(const GstTagList* tags) {
+  GstDateTime* told = nullptr;
+  if (gst_tag_list_get_date_time(tags, GST_TAG_DATE_TIME, &told) == FALSE) return std::nullopt;
+  std::optional<HostTime> created_at;
+  GDateTime* const time =
+      gst_date_time_has_second(told) != FALSE ? gst_date_time_to_g_date_time(told) : nullptr;
+  if (time != nullptr) {
+    created_at = HostTime{std::chrono::seconds{g_date_time_to_unix(time)} +
+                          std::chrono::microseconds{g_date_time_get_microsecond(time)}};
+    g_date_time_unref(time);
+  }
+  gst_date_time_unref(told);
+  return created_at;
 }
 
 std::string error_text(GstMessage* message) {

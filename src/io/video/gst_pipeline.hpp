@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "geoloc/geometry/time.hpp"
 #include "gst_handles.hpp"
 
 // Functions shared by the sources of live and of recorded video.
@@ -26,6 +27,9 @@ GstElement* add_element(GstElement* pipeline, const char* name);
 /// An appsink for BGR pictures that holds one frame; `callbacks` are called with `user` in the streaming
 /// thread.
 GstElement* add_bgr_sink(GstElement* pipeline, GstAppSinkCallbacks callbacks, void* user);
+
+/// When a file was made, as its container tells, in UTC; nullopt where it tells no date and time of day.
+std::optional<HostTime> creation_time_of(const GstTagList* tags);
 
 /// The reason in an error message.
 std::string error_text(GstMessage* message);

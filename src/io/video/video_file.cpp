@@ -30,7 +30,8 @@ GstBufferPtr to_buffer(const cv::Mat& bgr) {
 
 class VideoFile::Impl {
  public:
-  Impl(std::filesystem::path file, cv::Size size) : file_(std::move(file)), partial_(file_), size_(size) {
+  Impl(std::filesystem::path file, cv::Size size, std::optional<HostTime> created_at)
+      : file_(std::move(file)), partial_(file_), size_(size), created_at_(created_at) {
     init_gstreamer();
     pipeline_.reset(gst_pipeline_new(nullptr));
     build();
@@ -66,10 +67,18 @@ class VideoFile::Impl {
     GstElement* converter = add_element(pipeline_.get(), "videoconvert");
     GstElement* encoder = add_encoder();
     GstElement* muxer = add_element(pipeline_.get(), "matroskamux");
+    if (created_at_) set_creation_time(muxer);
     GstElement* sink = add_element(pipeline_.get(), "filesink");
     g_object_set(sink, "location", partial_.name().c_str(), nullptr);
     if (gst_element_link_many(GST_ELEMENT(source_), converter, encoder, muxer, sink, nullptr) == FALSE)
       fail("GStreamer's elements do not fit together");
+  }
+
+  void set_creation_time(GstElement* muxer) const {
+    const auto since_1970 = std::chrono::floor<std::chrono::seconds>(created_at_->time_since_epoch());
+    GDateTime* const time = g_date_time_new_from_unix_utc(since_1970.count());
+    g_object_set(muxer, "creation-time", time, nullptr);
+    g_date_time_unref(time);
   }
 
   GstElement* add_encoder() {
@@ -97,12 +106,13 @@ class VideoFile::Impl {
   std::filesystem::path file_;
   PartialFile partial_;
   cv::Size size_;
+  std::optional<HostTime> created_at_;
   GstPipelinePtr pipeline_;      // keeps the file open: destroyed first
   GstAppSrc* source_ = nullptr;  // owned by the pipeline
 };
 
-VideoFile::VideoFile(std::filesystem::path file, cv::Size size)
-    : impl_(std::make_unique<Impl>(std::move(file), size)) {}
+VideoFile::VideoFile(std::filesystem::path file, cv::Size size, std::optional<HostTime> created_at)
+    : impl_(std::make_unique<Impl>(std::move(file), size, created_at)) {}
 
 VideoFile::~VideoFile() = default;
 

@@ -74,14 +74,19 @@ TEST(Labels, MayBeWhatADetectorWrote) {
   EXPECT_TRUE(labels.by_picture.at("2.jpg").empty());
 }
 
+TEST(Labels, OfAVideoGoByTheNumbersOfItsFrames) {
+  const Labels labels = parse_labels(R"({"image": "a.mp4", "frame": 12, "detections": []})", "labels");
+  EXPECT_EQ(labels.by_picture.count("12"), 1U);
+}
+
 TEST(Labels, ThatAreWrongAreRefusedByLineAndReason) {
   EXPECT_EQ(refusal_of("picture,u,v\na.jpg,1,2\na.jpg,x,2\n"), "labels:3: u is no number: `x`");
   EXPECT_EQ(refusal_of("picture,u\n"), "labels:1: there is no column `v`");
   EXPECT_EQ(refusal_of("EPSG:4326\n1 2 3\n"), "labels:2: x y z u v picture is expected");
   EXPECT_EQ(refusal_of(R"({"image": "a.jpg", "detections": [{"box": [1, 2, 0, 4]}]})"),
             "labels:1: box has no size");
-  EXPECT_EQ(refusal_of(R"({"image": "a.mp4", "frame": 0, "detections": []})"),
-            "labels:1: is of a video, not of a picture");
+  EXPECT_EQ(refusal_of(R"({"image": "a.mp4", "frame": -1, "detections": []})"),
+            "labels:1: frame must be a whole number from 0");
   EXPECT_EQ(refusal_of("EPSG:4326\n"), "labels: holds no label");
   EXPECT_EQ(refusal_of(""), "labels: holds no label");
   EXPECT_NE(refusal_of("http://127.0.0.1/wkt\n1 2 3 4 5 a.jpg\n").find("no coordinate system"),

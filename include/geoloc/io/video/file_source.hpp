@@ -21,6 +21,12 @@ struct Playback {
   std::optional<HostTime> starts_at;  ///< capture time of the file's time 0; without it, playing starts now
 };
 
+/// What a file tells of the whole of it.
+struct FileFacts {
+  std::optional<HostTime> created_at;  ///< UTC as the camera's clock had it, mostly in whole seconds
+  std::optional<Duration> duration;
+};
+
 /// A video file of any container and codec that GStreamer has a plugin for (mkv, mp4, avi, …). Capture time
 /// is the start plus the frame's time stamp. Ends with VideoState::kEnded; last_error is set if not all of
 /// the file could be played.
@@ -36,6 +42,9 @@ class FileSource final : public VideoSource {
 
   std::optional<VideoFrame> next(Duration timeout) override;
   VideoStatus status() const override;
+
+  /// Known from the beginning.
+  FileFacts facts() const;
 
  private:
   class Impl;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "geoloc/geometry/time.hpp"
 
@@ -13,8 +14,9 @@ namespace geoloc::io {
 /// with JPEG otherwise. The file appears whole, at finish().
 class VideoFile {
  public:
-  /// Pictures have the size of the first one. Throws std::runtime_error naming the file and the reason.
-  VideoFile(std::filesystem::path file, cv::Size size);
+  /// Pictures have the size of the first one. `created_at` is what the file tells of when it was recorded, in
+  /// whole seconds; without it, now. Throws std::runtime_error naming the file and the reason.
+  VideoFile(std::filesystem::path file, cv::Size size, std::optional<HostTime> created_at = std::nullopt);
 
   /// Removes the file if it was not finished.
   ~VideoFile();

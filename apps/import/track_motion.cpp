@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/track_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geoloc/geometry/angles.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A vehicle that hovers is told at least so often.
+constexpr Duration kLongestGap = 500ms;
+
+/// From one position to another, in east, north, up [m].
+Eigen::Vector3d way(const PositionSample& from, const PositionSample& to) {
+  constexpr double kMetresPerDegree = 111'319.5;
+  const double east_deg = std::remainder(to.position.longitude_deg - from.position.longitude_deg, 360.0);
+  return {east_deg * std::cos(from.position.latitude_deg * kRadPerDeg) * kMetresPerDegree,
+          (to.position.latitude_deg - from.position.latitude_deg) * kMetresPerDegree,
+          to.height_above_home_m - from.height_above_home_m};
+}
+
+/// By the positions half a second before and after each.
+void take_differences(std::vector<PositionSample>& positions) {
+  constexpr Duration kHalf = 500ms;
+  std::size_t from = 0, to = 0;
+  for (PositionSample& position : positions) {
+    while (position.time - positions[from].time > kHalf) ++from;
+    while (to + 1 < positions.size() && positions[to].time - position.time < kHalf) ++to;
+    const Duration span = positions[to].time - positions[from].time;
+    position.velocity_in_enu = Eigen::Vector3d::Zero();
+    if (span > 0ns) position.velocity_in_enu = way(positions[from], positions[to]) / seconds(span);
+  }
+}
+
+/// Straight between the velocities before and after; at the ends, the nearest.
+Eigen::Vector3d velocity_at(const std::vector<io::LoggedVelocity>& told, VehicleTime time) {
+  const auto after =
+      std::lower_bound(told.begin(), told.end(), time,
+                       [](const auto& sample, VehicleTime wanted) { return sample.time < wanted; });
+  if (after == told.begin()) return told.front().velocity_in_enu;
+  if (after == told.end()) return told.back().velocity_in_enu;
+  const auto before = std::prev(after);
+  const double share = seconds(time - before->time) / seconds(after->time - before->time);
+  return before->velocity_in_enu + share * (after->velocity_in_enu - before->velocity_in_enu);
+}
+
+}  // namespace
+
+void take_velocities(const std::vector<io::LoggedVelocity>& told, std::vector<PositionSample>& positions) {
+  if (told.empty()) return take_differences(positions);
+  for (PositionSample& position : positions) position.velocity_in_enu = velocity_at(told, position.time);
+}
+
+std::vector<AttitudeSample> level_towards_course(const std::vector<PositionSample>& positions) {
+  constexpr double kSlowest_mps = 0.5;
+  std::vector<AttitudeSample> attitudes;
+  attitudes.reserve(positions.size());
+  std::optional<double> course_rad;
+  for (const PositionSample& position : positions) {
+    const Eigen::Vector3d& velocity = *position.velocity_in_enu;
+    if (velocity.head<2>().norm() > kSlowest_mps) {
+      const bool is_first = !course_rad;
+      course_rad = std::atan2(velocity.x(), velocity.y());
+      for (AttitudeSample& earlier : attitudes) {  // before it moved at all
+        if (!is_first) break;
+        earlier.angles.yaw_rad = *course_rad;
+      }
+    }
+    attitudes.push_back({position.time, {0.0, 0.0, course_rad.value_or(0.0)}});
+  }
+  return attitudes;
+}
+
+void drop_held_positions(std::vector<PositionSample>& positions) {
+  const auto holds = [](const PositionSample& kept, const PositionSample& next) {
+    return next.position.latitude_deg == kept.position.latitude_deg &&
+           next.position.longitude_deg == kept.position.longitude_deg &&
+           next.height_above_home_m == kept.height_above_home_m && next.time - kept.time < kLongestGap;
+  };
+  std::vector<PositionSample> kept;
+  for (const PositionSample& position : positions) {
+    if (kept.empty() || !holds(kept.back(), position)) kept.push_back(position);
+  }
+  positions = std::move(kept);
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/video_camera.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/stills/still.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+/// As of a picture that tells no more.
+std::optional<io::Lens> film_lens(const VideoFacts& video, double focal_35mm_mm) {
+  io::PictureTags tags;
+  tags.width_px = video.width_px;
+  tags.height_px = video.height_px;
+  tags.exif["FocalLengthIn35mmFilm"] = fmt::format("{}", focal_35mm_mm);
+  return io::lens_of(tags);
+}
+
+}  // namespace
+
+CameraConfig video_camera(const std::string& camera_file, const VideoFacts& video,
+                          std::optional<double> focal_35mm_mm, std::vector<std::string>& assumptions) {
+  if (!camera_file.empty()) {
+    const CameraConfig camera = io::read_camera_file(camera_file);
+    const CameraIntrinsics& size = camera.intrinsics;
+    if (size.width_px != video.width_px || size.height_px != video.height_px)
+      throw std::runtime_error(
+          fmt::format("{}: is of pictures of {} x {}, and the video's are {} x {}: calibrate "
+                      "the camera in its video mode",
+                      camera_file, size.width_px, size.height_px, video.width_px, video.height_px));
+    return camera;
+  }
+  const auto lens = focal_35mm_mm ? film_lens(video, *focal_35mm_mm) : std::nullopt;
+  if (!lens)
+    throw std::runtime_error(
+        "the camera's focal length is not known: give its calibration with --camera (a file with width, "
+        "height "
+        "and horizontal_fov_deg will do: docs/formats.md, camera.json)");
+  assumptions.push_back(
+      fmt::format("the focal length is the log's equivalent for film of 35 mm, {:.0f} px to some 5 % where "
+                  "the whole width of the "
+                  "sensor is used: heights, and positions away from the image's middle, are as uncertain "
+                  "(--camera gives a "
+                  "calibration)",
+                  lens->intrinsics.fx_px));
+  CameraConfig camera;
+  camera.intrinsics = lens->intrinsics;
+  return camera;
+}
+
+}  // namespace geoloc::apps

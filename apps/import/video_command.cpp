@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "import/video_command.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "common/command_line.hpp"
+#include "common/stop_signal.hpp"
+#include "geoloc/io/json/camera_file.hpp"
+#include "import/import_words.hpp"
+#include "import/log_source.hpp"
+#include "import/recording_maker.hpp"
+#include "import/survey_truth.hpp"
+#include "import/video_camera.hpp"
+#include "import/video_looks.hpp"
+#include "import/video_offset.hpp"
+#include "import/video_recording.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+TrackFacts facts_of(const VideoOptions& options) {
+  return {options.utc_offset_h, options.take_off_height_m, options.gimbal_pitch_deg};
+}
+
+std::optional<Duration> told_offset(const VideoOptions& options) {
+  if (options.log_offset == "auto") return std::nullopt;
+  return from_seconds(std::stod(options.log_offset));
+}
+
+/// Whose work the found file holds.
+std::string work_of(const VideoOptions& options, const io::DetectorFiles& files) {
+  const std::filesystem::path video = std::filesystem::canonical(options.video);
+  std::string work =
+      fmt::format("geoloc_import: {} of {} bytes, by {} and {}", video.string(),
+                  std::filesystem::file_size(video), files.model.string(), options.detector.second_look_file);
+  work += fmt::format(", confidence {}", options.tuning.confidence.value_or(0.0));
+  for (const auto* list : {&options.tuning.tiles, &options.tuning.input_size_px}) {
+    for (const int number : *list) work += fmt::format(", {}", number);
+  }
+  return work;
+}
+
+/// Everything that can be wrong before the first frame is looked at is found while this is made.
+struct VideoProgram {
+  explicit VideoProgram(const VideoOptions& given)
+      : options(given),
+        log(read_log(options.log, facts_of(options))),
+        facts(video_facts(options.video)),
+        camera(video_camera(options.camera_file, facts, log.focal_35mm_mm, assumptions)),
+        offset(find_offset({facts.file.created_at, facts.file.duration}, log.times, told_offset(options))) {
+    if (!options.labels_file.empty())
+      labels = io::parse_labels(io::read_text_file(options.labels_file), options.labels_file);
+    if (!labels) {
+      const io::DetectorFiles files = detector_files(options.detector);
+      detector =
+          io::open_detector(files, detection_of(options.detector, options.tuning, io::DetectionConfig{}));
+      work = work_of(options, files);
+    }
+    recording = std::make_unique<RecordingMaker>(options.out);
+    if (!labels) found = std::make_unique<FoundFile>(options.out + ".found.jsonl", work);
+  }
+
+  VideoOptions options;
+  std::vector<std::string> assumptions;
+  LogSource log;
+  VideoFacts facts;
+  CameraConfig camera;
+  VideoOffset offset;
+  std::optional<io::Labels> labels;
+  std::unique_ptr<io::Detector> detector;  ///< nullptr where there are labels
+  std::string work;
+  std::unique_ptr<RecordingMaker> recording;
+  std::unique_ptr<FoundFile> found;  ///< of the detector
+};
+
+void tell_begin(const VideoProgram& program) {
+  if (program.log.track) tell_plan(program.log.track->notes, program.log.track->assumptions);
+  tell_plan({}, program.assumptions);
+  tell(
+      fmt::format("the video begins {:.2f} s after the log's beginning, {}, to {:g} s (1 sigma): the joint "
+                  "method finds what "
+                  "is left, as latency{}",
+                  seconds(program.offset.after_log_begin), program.offset.how, program.offset.sigma_s,
+                  program.options.log_offset == "auto" ? " (--log-offset-s says another)" : ""));
+}
+
+std::vector<VideoLook> looks_of(VideoProgram& program, const StopSignal& stop) {
+  std::vector<std::string> notes;
+  std::vector<VideoLook> looks =
+      program.labels
+          ? labelled_looks(program.options.video, *program.labels, program.options.labels_file, stop, notes)
+          : detected_looks(program.options.video, *program.detector, *program.found, stop, notes);
+  for (const std::string& note : notes) tell(note);
+  if (looks.empty() && !stop.is_requested())
+    throw std::runtime_error("no frame could be looked at, so that nothing was written");
+  return looks;
+}
+
+void write(VideoProgram& program, const std::vector<VideoLook>& looks) {
+  io::RecordingWriter& writer = program.recording->writer();
+  const std::size_t left_out =
+      write_video_flight({program.log, program.camera, program.offset, looks}, writer);
+  if (left_out > 0)
+    tell(fmt::format("{} frames are left out: how the camera looked then is not known", left_out));
+  if (program.labels && !program.labels->marks.empty())
+    writer.write_truth(true_targets(program.labels->marks));
+  const auto& class_names = program.labels ? program.labels->class_names : program.detector->class_names();
+  if (!class_names.empty()) writer.write_class_names(class_names);
+  program.recording->finish();
+  if (program.found) program.found->remove();
+}
+
+void tell_end(const VideoProgram& program, const std::vector<VideoLook>& looks) {
+  std::size_t detections = 0;
+  for (const VideoLook& look : looks) detections += look.detections.size();
+  tell(fmt::format("{} frames with {} detections in {}", looks.size(), detections, program.options.out));
+  if (program.detector && detections == 0)
+    tell(nothing_detected(program.detector->counts(),
+                          detection_of(program.options.detector, program.options.tuning, {}).confidence));
+  tell("next: geoloc_replay " + program.options.out + " --out objects.geojson");
+}
+
+int tell_stopped(const VideoProgram& program) {
+  tell(program.found ? "stopped: what was found so far is kept in " + program.found->name().string() +
+                           ", and the same command goes on from there"
+                     : std::string("stopped: nothing was written"));
+  return kFailed;
+}
+
+}  // namespace
+
+int import_video(const VideoOptions& options) {
+  std::unique_ptr<VideoProgram> program;
+  const StopSignal stop;
+  std::vector<VideoLook> looks;
+  const auto unusable = guard("geoloc_import", kUnusable, [&] {
+    program = std::make_unique<VideoProgram>(options);
+    tell_begin(*program);
+  });
+  if (unusable) return *unusable;
+  const auto unseen = guard("geoloc_import", kUnusable, [&] { looks = looks_of(*program, stop); });
+  if (unseen) return *unseen;
+  if (stop.is_requested()) return tell_stopped(*program);
+  const auto failed = guard("geoloc_import", kFailed, [&] { write(*program, looks); });
+  if (failed) return *failed;
+  tell_end(*program, looks);
+  return kDone;
+}
+
+}  // namespace geoloc::apps

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "geoloc/camera/camera.hpp"
+#include "geoloc/io/recording/recording_writer.hpp"
+#include "import/found_file.hpp"
+#include "import/log_source.hpp"
+#include "import/video_offset.hpp"
+
+namespace geoloc::apps {
+
+/// What a video's recording is made of.
+struct VideoFlight {
+  const LogSource& log;
+  const CameraConfig& camera;
+  const VideoOffset& offset;
+  const std::vector<VideoLook>& looks;
+};
+
+/// Writes camera, settings, telemetry and frames. Returns how many frames were left out since the gimbal's
+/// angles are not known then.
+std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& writer);
+
+}  // namespace geoloc::apps

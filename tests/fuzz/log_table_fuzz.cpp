@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstddef>
+#include <cstdint>
+
+#include "fuzz/hostile_logs.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  geoloc::io::hostile::read_any_log_table({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
