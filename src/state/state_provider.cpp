@@ -286,8 +286,7 @@ Expected<GimbalState, NoState> StateProvider::gimbal_at(const VehicleState& vehi
   const auto vehicle_before = at(vehicle.time - kSettling);
   if (!vehicle_before) return now;
   const auto before = gimbal_.at(*vehicle_before);
-  const bool is_still =
-      before && now->enu_from_gimbal.angularDistance(before->enu_from_gimbal) <= kStill_rad;
+  const bool is_still = before && now->enu_from_gimbal.angularDistance(before->enu_from_gimbal) <= kStill_rad;
   if (!is_still) return NoState::kInAGap;
   return now;
 }
