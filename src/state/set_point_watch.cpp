@@ -50,9 +50,11 @@ void SetPointWatch::judge() {
 }
 
 void SetPointWatch::restart() {
-  const bool found = is_set_point_;
-  *this = SetPointWatch{};
-  is_set_point_ = found;
+  last_.reset();
+  vehicle_.reset();
+  tilt_before_ = tilt_ = Eigen::Vector2d::Zero();
+  vehicle_shaken_rad_ = 0.0;
+  samples_ = even_samples_ = 0;
 }
 
 }  // namespace geoloc
