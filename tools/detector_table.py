@@ -100,12 +100,13 @@ def varied(network, picture: Path) -> None:
         torch.nn.init.normal_(module.weight, 0, 4 / module.weight[0].numel() ** 0.5)
         torch.nn.init.normal_(module.bias, 0, 0.5)
         module.register_forward_hook(lambda _, __, out: scores.append(out.detach()))
-    image = torch.from_numpy(cv2.resize(cv2.imread(str(picture)), (SIDE_PX, SIDE_PX))).permute(2, 0, 1)[None] / 255.0
+    rgb = cv2.cvtColor(cv2.resize(cv2.imread(str(picture)), (SIDE_PX, SIDE_PX)), cv2.COLOR_BGR2RGB)
+    image = torch.from_numpy(rgb).permute(2, 0, 1)[None] / 255.0
     with torch.no_grad():
         network.eval()(image)
         best = torch.cat([(s.amax(1) if s.dim() == 4 else s.amax(2)).ravel() for s in scores])
         for module in scoring:
-            module.bias += torch.logit(torch.tensor(CONFIDENCE + 0.1)) - best.sort().values[-PLACES]
+            module.bias += torch.logit(torch.tensor(CONFIDENCE)) - best.sort().values[-PLACES]
             module._forward_hooks.clear()
 
 
