@@ -27,6 +27,7 @@ SIDE_PX = 320
 CONFIDENCE, OVERLAP = 0.25, 0.5
 BACKENDS = ("opencv", "openvino")
 PLACES = 80  # that reach it, before suppression
+SPREAD = 1.0  # 1-sigma of the logits of their scores
 MARGIN = 0.005  # a score so close to the threshold may fall on either side of it
 TOOLS = Path(__file__).resolve().parent
 
@@ -81,12 +82,6 @@ def varied(network, picture: Path) -> None:
     import torch
 
     torch.manual_seed(0)
-    for module in network.modules():
-        if isinstance(module, torch.nn.BatchNorm2d):
-            module.running_mean.normal_(0, 0.2)
-            module.running_var.uniform_(0.5, 1.5)
-            torch.nn.init.normal_(module.weight, 1.3, 0.4)
-            torch.nn.init.normal_(module.bias, 0, 0.4)
     head = network.model[-1]
     width = lambda module: getattr(module, "out_channels", getattr(module, "out_features", None))  # noqa: E731
     last = [module for module in head.modules() if width(module) and getattr(module, "bias", None) is not None]
@@ -102,11 +97,22 @@ def varied(network, picture: Path) -> None:
         module.register_forward_hook(lambda _, __, out: scores.append(out.detach()))
     rgb = cv2.cvtColor(cv2.resize(cv2.imread(str(picture)), (SIDE_PX, SIDE_PX)), cv2.COLOR_BGR2RGB)
     image = torch.from_numpy(rgb).permute(2, 0, 1)[None] / 255.0
+    network.eval()
+    normalized = [module for module in network.modules() if isinstance(module, torch.nn.BatchNorm2d)]
+    for module in normalized:  # to the picture itself, since differences fade in deep networks else
+        module.momentum = 1.0
+        module.train()
     with torch.no_grad():
-        network.eval()(image)
+        network(image)
+        network.eval()
+        scores.clear()
+        network(image)
         best = torch.cat([(s.amax(1) if s.dim() == 4 else s.amax(2)).ravel() for s in scores])
+        spread = SPREAD / best.std()
         for module in scoring:
-            module.bias += torch.logit(torch.tensor(CONFIDENCE)) - best.sort().values[-PLACES]
+            module.weight *= spread
+            module.bias *= spread
+            module.bias += torch.logit(torch.tensor(CONFIDENCE)) - spread * best.sort().values[-PLACES]
             module._forward_hooks.clear()
 
 
