@@ -29,6 +29,8 @@ BACKENDS = ("opencv", "openvino")
 PLACES = 80  # that reach it, before suppression
 SPREAD = 1.0  # 1-sigma of the logits of their scores
 MARGIN = 0.005  # a score so close to the threshold may fall on either side of it
+SAME_PX = 1
+MOST_LETTERS = 400  # of a refusal; some quote the back end at length
 TOOLS = Path(__file__).resolve().parent
 
 
@@ -174,6 +176,26 @@ def farthest_px(ours: list[tuple], theirs: list[tuple], may_have_more: bool = Fa
     return max([*one_way(theirs, ours), *([] if may_have_more else one_way(ours, theirs))], default=float("nan"))
 
 
+def agreement(ours: list[tuple], theirs: list[tuple], may_have_more: bool) -> str:
+    farthest = farthest_px(ours, theirs, may_have_more)
+    if farthest < SAME_PX:
+        return f"{farthest:.3f} px"
+    sure = [box for box in theirs if box[1] >= CONFIDENCE + MARGIN]
+    same = sum(farthest_px(ours, [box], True) < SAME_PX for box in sure)
+    return f"{same} of {len(sure)} boxes within {SAME_PX} px"
+
+
+def noted(cell: str, notes: list[str]) -> str:
+    """A refusal's number among the notes below the table, which get it where they lack it."""
+    if not cell.startswith("refused: "):
+        return cell
+    words = cell.removeprefix("refused: ")
+    words = words if len(words) <= MOST_LETTERS else words[:MOST_LETTERS].rsplit(" ", 1)[0] + " …"
+    if words not in notes:
+        notes.append(words)
+    return f"refused ({notes.index(words) + 1})"
+
+
 class Detect:
     def __init__(self, program: Path, picture: Path):
         self.program, self.picture = program, picture
@@ -205,7 +227,7 @@ class Detect:
         line, words = self.advised(file, backend, options)
         if line is not None:
             may_have_more = "-obb" in file.name or "-seg" in file.name
-            return f"{words}, {farthest_px(detected(line), theirs, may_have_more):.3f} px"
+            return f"{words}, {agreement(detected(line), theirs, may_have_more)}"
         return "refused: " + re.sub(r"^geoloc_detect: (\S+\.onnx: )?", "", words).replace(f"{file.parent}/", "")
 
 
@@ -223,12 +245,14 @@ def noise(file: Path) -> Path:
 def print_table(folder: Path, program: Path) -> None:
     detect = Detect(program, noise(folder / "noise.png"))
     print("| export | OpenCV | OpenVINO | boxes |\n|---|---|---|---|")
+    notes = []
     for case in CASES:
         file = export(case, folder, detect.picture)
         can_be_run = not case.architecture.endswith("-cls") and "batch" not in case.arguments
         theirs = reference(file, detect.picture) if can_be_run else []
-        judged = [detect.judged(file, theirs, backend, case.options) for backend in BACKENDS]
+        judged = [noted(detect.judged(file, theirs, backend, case.options), notes) for backend in BACKENDS]
         print(f"| {case.words} | {judged[0]} | {judged[1]} | {len(theirs)} |", flush=True)
+    print("\n" + "\n".join(f"{number}. {words}" for number, words in enumerate(notes, 1)))
 
 
 def print_comparison(model: Path, folder: Path, program: Path) -> None:
