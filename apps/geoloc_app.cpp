@@ -196,7 +196,7 @@ int main(int argc, char** argv) {
     if (options.print_settings) {
       std::fputs(live_settings_table().c_str(), stdout);
     } else if (options.print_config) {
-      std::puts(live_to_json(load_config(options).config).dump(2).c_str());
+      std::puts(live_to_json(config_to_print(options)).dump(2).c_str());
     } else if (options.time_detector) {
       std::puts(time_detector(options).c_str());
     } else {

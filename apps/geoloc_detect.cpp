@@ -56,8 +56,11 @@ struct Program {
       refuse_problems(options.config_file, problems);
       tell_ignored(document, options.config_file);
     }
-    config.detection = detection_of(options.detector, options.tuning, config.detection);
-    detector = io::open_detector(detector_files(options.detector), config.detection);
+    const io::DetectorFiles files = detector_files(options.detector);
+    const io::DetectionConfig wanted = detection_of(options.detector, options.tuning, config.detection);
+    config.detection = io::with_model_defaults(files, wanted);
+    detector = io::open_detector(files, config.detection);
+    note = confidence_note(options.detector, wanted.confidence, config.detection.confidence);
     results = std::make_unique<ResultWriter>(
         options.places, inputs, joined({files_of_config(options.config_file), files_of(options.detector)}),
         detector->class_names());
@@ -65,6 +68,7 @@ struct Program {
 
   std::vector<DetectInput> inputs;
   LiveConfig config;
+  std::string note;  ///< for the user; may be empty
   std::unique_ptr<io::Detector> detector;
   std::unique_ptr<ResultWriter> results;
 };
@@ -82,6 +86,7 @@ int main(int argc, char** argv) {
       guard("geoloc_detect", kUnusable, [&] { program = std::make_unique<Program>(options); });
   if (unusable) return *unusable;
 
+  if (!program->note.empty()) std::fprintf(stderr, "geoloc_detect: %s\n", program->note.c_str());
   DetectRun run(*program->detector, *program->results, program->config.video, program->inputs.size(),
                 program->config.detection.confidence);
   const auto failed = guard("geoloc_detect", kFailed, [&] {

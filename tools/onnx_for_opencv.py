@@ -22,10 +22,14 @@ BOX_TOLERANCE_PX, SCORE_TOLERANCE = 0.01, 1e-4
 BROADCASTING = {"Add", "Sub", "Mul", "Div"}
 # Operators whose form is the same in opset 12 and opset 21, as far as detectors use them.
 UNCHANGED = BROADCASTING | {
-    "AveragePool", "BatchNormalization", "Clip", "Concat", "Conv", "ConvTranspose", "Exp", "Flatten", "Gemm",
-    "GlobalAveragePool", "LeakyRelu", "MatMul", "MaxPool", "Pad", "Pow", "Relu", "Sigmoid", "Slice", "Sqrt", "Tanh",
-    "Transpose",
+    "AveragePool", "BatchNormalization", "Clip", "Concat", "Conv", "ConvTranspose", "Cos", "Exp", "Flatten", "Gemm",
+    "GlobalAveragePool", "LeakyRelu", "MatMul", "MaxPool", "Pad", "Pow", "Relu", "Sigmoid", "Sin", "Slice", "Sqrt",
+    "Tanh", "Transpose",
 }  # fmt: skip
+REWRITTEN = {"Reshape", "ReduceSum", "Resize", "Softmax", "Split", "Squeeze", "Unsqueeze"}
+# Operators on shapes, which are constants once the input's size is.
+FOLDED = {"Cast", "Constant", "ConstantOfShape", "Expand", "Gather", "Identity", "Range", "Shape"}
+OPENVINO = "run the export as it is with --backend openvino"
 
 
 class Graph:
@@ -140,9 +144,19 @@ def at_opset_12(graph: Graph, node: onnx.NodeProto) -> list[onnx.NodeProto]:
         if len(node.input) > 1 and node.input[1] == "":
             node.input[1] = "no_region_of_interest"
             graph.constants[node.input[1]] = np.zeros(0, np.float32)
-    elif node.op_type not in UNCHANGED:
-        raise SystemExit(f"{node.op_type} of opset {graph.opset} is not known here: export with opset=12")
     return [node]
+
+
+def refuse_unknown(graph: Graph) -> None:
+    if any(tensor.data_type == onnx.TensorProto.FLOAT16 for tensor in graph.proto.initializer):
+        raise SystemExit(f"OpenCV 4.6 does not run numbers of 16 bits: {OPENVINO}, or export it with half=False")
+    unknown = sorted({node.op_type for node in graph.proto.node} - UNCHANGED - REWRITTEN)
+    if not unknown:
+        return
+    properties = {entry.key: entry.value for entry in graph.model.metadata_props}
+    chooses = properties.get("end2end") == "True" or "'nms': True" in properties.get("args", "")
+    export = ", or export it so that it does not choose boxes itself (without nms=, or with end2end=False)"
+    raise SystemExit(f"OpenCV 4.6 does not run {', '.join(unknown)}: {OPENVINO}{export if chooses else ''}")
 
 
 def lower_opset(graph: Graph) -> None:
@@ -202,6 +216,7 @@ def convert(model: onnx.ModelProto, size: tuple[int, int] | None = None) -> onnx
         fold_constants(graph)
         graph.store_constants()
     graph = Graph(model)
+    refuse_unknown(graph)
     graph.shape(model.graph.input[0].name)
     lower_opset(graph)
     expand_constants(graph)

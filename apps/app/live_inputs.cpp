@@ -20,6 +20,10 @@ std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, c
   return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock);
 }
 
+void add_line(const std::string& line, std::string& text) {
+  if (!line.empty()) text += (text.empty() ? "" : "\n") + line;
+}
+
 void guard_link(LiveInputs& inputs) {
   const io::MavlinkConfig& config = inputs.config.estimation.mavlink;
   std::optional<io::LinkSigning> signing;
@@ -53,7 +57,12 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
     if (!options.truth_file.empty()) inputs.truth = io::read_truth(options.truth_file);
   });
   attempt([&] {
-    inputs.detector = io::open_detector(detector_files(options.detector), inputs.config.detection);
+    const io::DetectorFiles files = detector_files(options.detector);
+    const double configured = inputs.config.detection.confidence;
+    inputs.config.detection = io::with_model_defaults(files, inputs.config.detection);
+    inputs.detector = io::open_detector(files, inputs.config.detection);
+    add_line(confidence_note(options.detector, configured, inputs.config.detection.confidence),
+             inputs.remarks);
   });
   attempt([&] { inputs.socket = std::make_unique<io::UdpSocket>(io::parse_udp_endpoint(options.udp)); });
   attempt([&] { guard_link(inputs); });

@@ -78,4 +78,11 @@ LoadedConfig load_config(const LiveOptions& options) {
   return loaded;
 }
 
+LiveConfig config_to_print(const LiveOptions& options) {
+  LiveConfig config = load_config(options).config;
+  if (!options.detector.model_file.empty())
+    config.detection = io::with_model_defaults(detector_files(options.detector), config.detection);
+  return config;
+}
+
 }  // namespace geoloc::apps

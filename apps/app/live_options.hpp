@@ -43,4 +43,8 @@ struct LoadedConfig {
 /// The configuration file under the options. Throws std::runtime_error listing every fault.
 LoadedConfig load_config(const LiveOptions& options);
 
+/// The same for people: with what a model named on the command line decides. Without one it stays open, so
+/// that the settings suit every model.
+LiveConfig config_to_print(const LiveOptions& options);
+
 }  // namespace geoloc::apps

@@ -9,11 +9,27 @@
 #include "settings/field_checker.hpp"
 
 namespace geoloc::apps {
+namespace {
+
+CLI::IsMember layout_names() {
+  std::vector<std::string> names;
+  for (const auto& [layout, name] : EnumNames<io::OutputLayout>::all) names.emplace_back(name);
+  return CLI::IsMember(names);
+}
+
+io::OutputLayout layout_named(const std::string& wanted) {
+  for (const auto& [layout, name] : EnumNames<io::OutputLayout>::all) {
+    if (wanted == name) return layout;
+  }
+  return io::OutputLayout::kAuto;
+}
+
+}  // namespace
 
 void add_detector_options(CLI::App& program, DetectorOptions& options) {
   program
       .add_option("--model", options.model_file,
-                  "Detector, ONNX with YOLO11's output; default: the fiducial target's")
+                  "Detector, ONNX in a layout of docs/detection.md; default: the fiducial target's")
       ->type_name("FILE");
   program
       .add_option("--class-names", options.class_names_file,
@@ -33,7 +49,7 @@ void add_detector_options(CLI::App& program, DetectorOptions& options) {
 
 void add_detector_tuning(CLI::App& program, DetectorTuning& tuning) {
   program.add_option("--confidence", tuning.confidence,
-                     "Leave out boxes with a lower score; default: detection.confidence");
+                     "Leave out boxes with a lower score; default: detection.confidence, or the model's own");
   program
       .add_option("--tiles", tuning.tiles,
                   "Look at so many by so many tiles of each picture as well; default: detection.tile_columns "
@@ -45,6 +61,12 @@ void add_detector_tuning(CLI::App& program, DetectorTuning& tuning) {
                   "Of the network's input, px, for models that leave it open; default: the model's own")
       ->type_name("WIDTH HEIGHT")
       ->expected(2);
+  program
+      .add_option("--layout", tuning.layout,
+                  "How the network's output lists its boxes: " + list_names<io::OutputLayout>() +
+                      "; default: detection.layout")
+      ->type_name("NAME")
+      ->check(layout_names());
 }
 
 io::DetectionConfig detection_of(const DetectorOptions& options, const DetectorTuning& tuning,
@@ -59,6 +81,7 @@ io::DetectionConfig detection_of(const DetectorOptions& options, const DetectorT
     config.input_width_px = tuning.input_size_px[0];
     config.input_height_px = tuning.input_size_px[1];
   }
+  if (!tuning.layout.empty()) config.layout = layout_named(tuning.layout);
   throw_if_any(check_fields(config, "detection"));
   return config;
 }
@@ -79,6 +102,13 @@ NamedFiles files_of(const DetectorOptions& options) {
   add_named(files, "--class-names", options.class_names_file);
   if (options.second_look_file != "none") add_named(files, "--second-look", options.second_look_file);
   return files;
+}
+
+std::string confidence_note(const DetectorOptions& options, double configured, double in_force) {
+  if (options.model_file.empty() || configured > 0.0) return {};
+  return fmt::format(
+      "{}: boxes of score {:g} and up count, as is usual for such a model (detection.confidence)",
+      options.model_file, in_force);
 }
 
 std::string nothing_detected(const io::DetectorCounts& counts, double confidence) {

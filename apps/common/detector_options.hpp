@@ -29,9 +29,10 @@ struct DetectorTuning {
   std::optional<double> confidence;
   std::vector<int> tiles;          ///< columns, rows
   std::vector<int> input_size_px;  ///< width, height
+  std::string layout;
 };
 
-/// --confidence, --tiles, --input-size.
+/// --confidence, --tiles, --input-size, --layout.
 void add_detector_tuning(CLI::App& program, DetectorTuning& tuning);
 
 /// What the command line says over what the configuration says. Throws std::invalid_argument naming every
@@ -44,6 +45,9 @@ io::DetectorFiles detector_files(const DetectorOptions& options);
 
 /// Those files that the command line names, as inputs for check_outputs().
 NamedFiles files_of(const DetectorOptions& options);
+
+/// On a confidence that the model decided; empty where the user did, or named no model.
+std::string confidence_note(const DetectorOptions& options, double configured, double in_force);
 
 /// Why a detector that found nothing did so, for people.
 std::string nothing_detected(const io::DetectorCounts& counts, double confidence);

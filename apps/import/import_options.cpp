@@ -32,8 +32,8 @@ void add_shared_options(CLI::App& command, Options& options) {
       ->type_name("X");
   add_detector_options(command, options.detector);
   add_detector_tuning(command, options.tuning);
-  for (const char* detector_option :
-       {"--model", "--class-names", "--second-look", "--backend", "--confidence", "--tiles", "--input-size"})
+  for (const char* detector_option : {"--model", "--class-names", "--second-look", "--backend",
+                                      "--confidence", "--tiles", "--input-size", "--layout"})
     labels->excludes(command.get_option(detector_option));
 }
 

@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "common/command_line.hpp"
-#include "common/detector_options.hpp"
 #include "common/stop_signal.hpp"
 #include "detect/inputs.hpp"
 #include "geoloc/io/json/camera_file.hpp"
 #include "import/flight_plan.hpp"
+#include "import/import_detector.hpp"
 #include "import/import_words.hpp"
 #include "import/picture_looks.hpp"
 #include "import/picture_reader.hpp"
@@ -58,9 +58,7 @@ struct StillsProgram {
     if (!options.labels_file.empty())
       labels = io::parse_labels(io::read_text_file(options.labels_file), options.labels_file);
     facts = facts_of(options, labels);
-    if (!labels)
-      detector = io::open_detector(detector_files(options.detector),
-                                   detection_of(options.detector, options.tuning, io::DetectionConfig{}));
+    if (!labels) found_by = open_import_detector(options.detector, options.tuning);
     recording = std::make_unique<RecordingMaker>(options.out);
   }
 
@@ -68,7 +66,7 @@ struct StillsProgram {
   std::vector<std::filesystem::path> inputs;
   std::optional<io::Labels> labels;
   FlightFacts facts;
-  std::unique_ptr<io::Detector> detector;  ///< nullptr where there are labels
+  ImportDetector found_by;
   std::unique_ptr<RecordingMaker> recording;
 };
 
@@ -87,7 +85,7 @@ PictureLooks looks_of(const StillsProgram& program, const FlightPlan& plan, cons
   if (stop.is_requested()) return {};
   PictureLooks looks = program.labels
                            ? labelled_looks(plan.exposures, *program.labels, program.options.labels_file)
-                           : detected_looks(plan.exposures, *program.detector, stop);
+                           : detected_looks(plan.exposures, *program.found_by.detector, stop);
   tell_left_out(looks.left_out);
   const bool is_blind = std::none_of(looks.by_exposure.begin(), looks.by_exposure.end(),
                                      [](const auto& look) { return look.has_value(); });
@@ -100,7 +98,8 @@ void write(StillsProgram& program, const FlightPlan& plan, const PictureLooks& l
   program.recording->write(plan, looks);
   if (program.labels && !program.labels->marks.empty())
     program.recording->write_truth(true_targets(program.labels->marks));
-  const auto& class_names = program.labels ? program.labels->class_names : program.detector->class_names();
+  const auto& class_names =
+      program.labels ? program.labels->class_names : program.found_by.detector->class_names();
   if (!class_names.empty()) program.recording->write_class_names(class_names);
   program.recording->finish();
 }
@@ -113,9 +112,8 @@ void tell_end(const StillsProgram& program, const PictureLooks& looks) {
   }
   tell(std::to_string(frames) + " pictures with " + std::to_string(detections) + " detections in " +
        program.options.out);
-  if (program.detector && detections == 0)
-    tell(nothing_detected(program.detector->counts(),
-                          detection_of(program.options.detector, program.options.tuning, {}).confidence));
+  if (program.found_by.detector && detections == 0)
+    tell(nothing_detected(program.found_by.detector->counts(), program.found_by.config.confidence));
   tell("next: geoloc_replay " + program.options.out + " --out objects.geojson");
 }
 

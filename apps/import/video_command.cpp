@@ -11,6 +11,7 @@
 #include "common/command_line.hpp"
 #include "common/stop_signal.hpp"
 #include "geoloc/io/json/camera_file.hpp"
+#include "import/import_detector.hpp"
 #include "import/import_words.hpp"
 #include "import/log_source.hpp"
 #include "import/recording_maker.hpp"
@@ -33,12 +34,12 @@ std::optional<Duration> told_offset(const VideoOptions& options) {
 }
 
 /// Whose work the found file holds.
-std::string work_of(const VideoOptions& options, const io::DetectorFiles& files) {
+std::string work_of(const VideoOptions& options, const io::DetectionConfig& config) {
   const std::filesystem::path video = std::filesystem::canonical(options.video);
-  std::string work =
-      fmt::format("geoloc_import: {} of {} bytes, by {} and {}", video.string(),
-                  std::filesystem::file_size(video), files.model.string(), options.detector.second_look_file);
-  work += fmt::format(", confidence {}", options.tuning.confidence.value_or(0.0));
+  std::string work = fmt::format(
+      "geoloc_import: {} of {} bytes, by {} and {}", video.string(), std::filesystem::file_size(video),
+      detector_files(options.detector).model.string(), options.detector.second_look_file);
+  work += fmt::format(", confidence {}, layout {}", config.confidence, options.tuning.layout);
   for (const auto* list : {&options.tuning.tiles, &options.tuning.input_size_px}) {
     for (const int number : *list) work += fmt::format(", {}", number);
   }
@@ -56,10 +57,8 @@ struct VideoProgram {
     if (!options.labels_file.empty())
       labels = io::parse_labels(io::read_text_file(options.labels_file), options.labels_file);
     if (!labels) {
-      const io::DetectorFiles files = detector_files(options.detector);
-      detector =
-          io::open_detector(files, detection_of(options.detector, options.tuning, io::DetectionConfig{}));
-      work = work_of(options, files);
+      found_by = open_import_detector(options.detector, options.tuning);
+      work = work_of(options, found_by.config);
     }
     recording = std::make_unique<RecordingMaker>(options.out);
     if (!labels) found = std::make_unique<FoundFile>(options.out + ".found.jsonl", work);
@@ -72,7 +71,7 @@ struct VideoProgram {
   CameraConfig camera;
   VideoOffset offset;
   std::optional<io::Labels> labels;
-  std::unique_ptr<io::Detector> detector;  ///< nullptr where there are labels
+  ImportDetector found_by;
   std::string work;
   std::unique_ptr<RecordingMaker> recording;
   std::unique_ptr<FoundFile> found;  ///< of the detector
@@ -94,7 +93,7 @@ std::vector<VideoLook> looks_of(VideoProgram& program, const StopSignal& stop) {
   std::vector<VideoLook> looks =
       program.labels
           ? labelled_looks(program.options.video, *program.labels, program.options.labels_file, stop, notes)
-          : detected_looks(program.options.video, *program.detector, *program.found, stop, notes);
+          : detected_looks(program.options.video, *program.found_by.detector, *program.found, stop, notes);
   for (const std::string& note : notes) tell(note);
   if (looks.empty() && !stop.is_requested())
     throw std::runtime_error("no frame could be looked at, so that nothing was written");
@@ -109,7 +108,8 @@ void write(VideoProgram& program, const std::vector<VideoLook>& looks) {
     tell(fmt::format("{} frames are left out: how the camera looked then is not known", left_out));
   if (program.labels && !program.labels->marks.empty())
     writer.write_truth(true_targets(program.labels->marks));
-  const auto& class_names = program.labels ? program.labels->class_names : program.detector->class_names();
+  const auto& class_names =
+      program.labels ? program.labels->class_names : program.found_by.detector->class_names();
   if (!class_names.empty()) writer.write_class_names(class_names);
   program.recording->finish();
   if (program.found) program.found->remove();
@@ -119,9 +119,8 @@ void tell_end(const VideoProgram& program, const std::vector<VideoLook>& looks) 
   std::size_t detections = 0;
   for (const VideoLook& look : looks) detections += look.detections.size();
   tell(fmt::format("{} frames with {} detections in {}", looks.size(), detections, program.options.out));
-  if (program.detector && detections == 0)
-    tell(nothing_detected(program.detector->counts(),
-                          detection_of(program.options.detector, program.options.tuning, {}).confidence));
+  if (program.found_by.detector && detections == 0)
+    tell(nothing_detected(program.found_by.detector->counts(), program.found_by.config.confidence));
   tell("next: geoloc_replay " + program.options.out + " --out objects.geojson");
 }
 

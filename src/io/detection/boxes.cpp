@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "geoloc/io/detection/yolo_decode.hpp"
 
@@ -17,21 +18,51 @@ bool is_inside(const Box& box, ImageSize picture) {
          box.y + box.height <= picture.height_px;
 }
 
-}  // namespace
+double overlap(const Detection& a, const Detection& b) {
+  return intersection_over_union(a.box, b.box);
+}
 
-std::vector<Detection> suppress_overlaps(std::vector<Detection> boxes, const DetectionConfig& config) {
+double overlap(const OutlinedDetection& a, const OutlinedDetection& b) {
+  return a.rotated && b.rotated ? probabilistic_overlap(*a.rotated, *b.rotated)
+                                : intersection_over_union(a.box, b.box);
+}
+
+template <typename Found>
+void sort_by_confidence(std::vector<Found>& boxes, std::size_t most) {
   std::stable_sort(boxes.begin(), boxes.end(),
-                   [](const Detection& a, const Detection& b) { return a.confidence > b.confidence; });
-  if (boxes.size() > kMaxCandidates) boxes.resize(kMaxCandidates);
-  std::vector<Detection> kept;
-  for (const Detection& box : boxes) {
+                   [](const Found& a, const Found& b) { return a.confidence > b.confidence; });
+  if (boxes.size() > most) boxes.resize(most);
+}
+
+template <typename Found>
+std::vector<Found> without_overlaps(std::vector<Found> boxes, const DetectionConfig& config) {
+  sort_by_confidence(boxes, kMaxCandidates);
+  std::vector<Found> kept;
+  for (const Found& box : boxes) {
     if (kept.size() >= static_cast<std::size_t>(config.max_detections)) break;
-    const bool overlaps = std::any_of(kept.begin(), kept.end(), [&](const Detection& other) {
-      return other.class_id == box.class_id && intersection_over_union(other.box, box.box) > config.nms_iou;
+    const bool overlaps = std::any_of(kept.begin(), kept.end(), [&](const Found& other) {
+      return other.class_id == box.class_id && overlap(other, box) > config.nms_iou;
     });
     if (!overlaps) kept.push_back(box);
   }
   return kept;
+}
+
+}  // namespace
+
+std::vector<Detection> suppress_overlaps(std::vector<Detection> boxes, const DetectionConfig& config) {
+  return without_overlaps(std::move(boxes), config);
+}
+
+std::vector<OutlinedDetection> suppress_overlaps(std::vector<OutlinedDetection> boxes,
+                                                 const DetectionConfig& config) {
+  return without_overlaps(std::move(boxes), config);
+}
+
+std::vector<OutlinedDetection> most_confident(std::vector<OutlinedDetection> boxes,
+                                              const DetectionConfig& config) {
+  sort_by_confidence(boxes, static_cast<std::size_t>(config.max_detections));
+  return boxes;
 }
 
 std::optional<Box> clipped(const Box& box, ImageSize picture) {

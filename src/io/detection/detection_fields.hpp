@@ -12,6 +12,21 @@ struct EnumNames<io::Backend> {
       {{io::Backend::kOpencv, "opencv"}, {io::Backend::kOpenvino, "openvino"}}};
 };
 
+template <>
+struct EnumNames<io::OutputLayout> {
+  static constexpr std::array<std::pair<io::OutputLayout, const char*>, 10> all{
+      {{io::OutputLayout::kAuto, "auto"},
+       {io::OutputLayout::kYolo11, "yolo11"},
+       {io::OutputLayout::kObb, "obb"},
+       {io::OutputLayout::kSegment, "segment"},
+       {io::OutputLayout::kPose, "pose"},
+       {io::OutputLayout::kEnd2end, "end2end"},
+       {io::OutputLayout::kRtdetr, "rtdetr"},
+       {io::OutputLayout::kRtdetrTop, "rtdetr_top"},
+       {io::OutputLayout::kYolov5, "yolov5"},
+       {io::OutputLayout::kYolox, "yolox"}}};
+};
+
 namespace io {
 
 template <class Visitor>
@@ -26,7 +41,9 @@ template <class Visitor>
 void visit_fields(Visitor& v, DetectionConfig& detection) {
   constexpr Range kInput = Range::closed(0, kLongestInput_px);
   constexpr Range kTiles = Range::closed(1, 32);
-  v.field("confidence", detection.confidence, Range::open(0, 1), "", "Boxes of a lower score are dropped");
+  v.field("confidence", detection.confidence, Range::below(0, 1), "",
+          "Boxes of a lower score are dropped; 0: the model's own threshold, 0.8 for models made for geoloc "
+          "and 0.25 for all others");
   v.field(
       "nms_iou", detection.nms_iou, Range::above(0, 1), "",
       "Of two boxes of a class that overlap by more (intersection over union), the more confident one stays");
@@ -35,6 +52,8 @@ void visit_fields(Visitor& v, DetectionConfig& detection) {
   v.field("threads", detection.threads, Range::closed(0, 256), "",
           "Threads of the back end (OpenCV's are the whole program's); 0: one per core");
   v.field("backend", detection.backend, Any{}, "", "What runs the network; openvino where it was built in");
+  v.field("layout", detection.layout, Any{}, "",
+          "How the network's output lists its boxes; auto: as its metadata and shape tell");
   v.field("input_width_px", detection.input_width_px, kInput, "px",
           "Width of the network's input, for models that leave it open; 0: the model's own");
   v.field("input_height_px", detection.input_height_px, kInput, "px", "Its height; give both or none");

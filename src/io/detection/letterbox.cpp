@@ -26,6 +26,14 @@ Letterbox fit_letterbox(ImageSize picture, ImageSize input) {
   return letterbox;
 }
 
+Letterbox stretch_to(ImageSize picture, ImageSize input) {
+  Letterbox letterbox;
+  letterbox.scaled = input;
+  letterbox.scale_x = static_cast<double>(input.width_px) / picture.width_px;
+  letterbox.scale_y = static_cast<double>(input.height_px) / picture.height_px;
+  return letterbox;
+}
+
 Box Letterbox::to_input(const Box& in_picture) const {
   return {in_picture.x * scale_x + left_px, in_picture.y * scale_y + top_px, in_picture.width * scale_x,
           in_picture.height * scale_y};

@@ -6,6 +6,9 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "output_facts.hpp"
+#include "remedies.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -24,8 +27,9 @@ std::vector<char> read_file(const std::filesystem::path& file) {
 }
 
 /// The configuration sets what the file leaves open.
-ImageSize input_size(const std::filesystem::path& file, const OnnxMetadata& metadata,
-                     const DetectionConfig& config) {
+ImageSize input_size(const ModelFile& model, const DetectionConfig& config) {
+  const std::filesystem::path& file = model.name;
+  const OnnxMetadata& metadata = model.metadata;
   if (metadata.inputs.size() != 1) {
     refuse_model(file,
                  "has " + std::to_string(metadata.inputs.size()) + " inputs; a detector takes one image");
@@ -49,9 +53,23 @@ ImageSize input_size(const std::filesystem::path& file, const OnnxMetadata& meta
                            " px of detection.input_width_px and input_height_px (--input-size)");
   }
   if (is_side(shape[2]) && is_side(shape[3])) return {static_cast<int>(shape[3]), static_cast<int>(shape[2])};
-  refuse_model(file, its_input +
-                         ", which leaves its size open: give one with detection.input_width_px and "
-                         "input_height_px (--input-size), or export again with dynamic=False");
+  refuse_model(file,
+               its_input + ", which leaves its size open: " + remedy_for_open_input(model, config.backend));
+}
+
+/// The output that lists boxes: the only one, or the only one of the rank of a list. A model that segments
+/// has another for the prototypes of its masks.
+std::size_t output_of_boxes(const std::filesystem::path& file, const std::vector<OnnxTensor>& outputs) {
+  if (outputs.size() == 1) return 0;
+  const auto is_list = [](const OnnxTensor& output) { return output.shape.size() == 3; };
+  if (std::count_if(outputs.begin(), outputs.end(), is_list) == 1)
+    return static_cast<std::size_t>(std::find_if(outputs.begin(), outputs.end(), is_list) - outputs.begin());
+  std::string shapes;
+  for (const OnnxTensor& output : outputs) shapes += (shapes.empty() ? "" : ", ") + shape_text(output.shape);
+  refuse_model(file,
+               "has " + std::to_string(outputs.size()) + " outputs, " + shapes +
+                   "; a detector lists boxes and scores in one of them, with three dimensions: export it "
+                   "again in a layout of docs/detection.md");
 }
 
 ModelFile read_model_file(const std::filesystem::path& file) {
@@ -90,7 +108,10 @@ std::string one_line(std::string reason) {
 
 ModelFile read_detector_file(const std::filesystem::path& file, const DetectionConfig& config) {
   ModelFile model = read_model_file(file);
-  model.input = input_size(file, model.metadata, config);
+  refuse_other_tasks(model);
+  model.input = input_size(model, config);
+  model.output = output_of_boxes(file, model.metadata.outputs);
+  if (config.layout == OutputLayout::kYolox) model.kind = InputKind::kRawPicture;
   return model;
 }
 

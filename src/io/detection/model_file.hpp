@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,8 +14,9 @@ namespace geoloc::io {
 
 /// Kind of input that a network takes.
 enum class InputKind {
-  kPicture,  ///< one, 8 bits, BGR; the back end makes it RGB in 0..1
-  kNumbers   ///< 32-bit floats, as they are
+  kPicture,     ///< one, 8 bits, BGR; the back end makes it RGB in 0..1
+  kRawPicture,  ///< the same, left as it is
+  kNumbers      ///< 32-bit floats, as they are
 };
 
 /// An ONNX file with one input of the shape [batch, 3, height, width].
@@ -24,7 +26,8 @@ struct ModelFile {
   OnnxMetadata metadata;
   InputKind kind = InputKind::kPicture;
   int batch = 1;
-  ImageSize input;  ///< the file's, or the configuration's where the file leaves it open
+  ImageSize input;         ///< the file's, or the configuration's where the file leaves it open
+  std::size_t output = 0;  ///< which of its outputs is the answer
 };
 
 /// Reads the file of a detector. Each of these throws std::runtime_error naming the file, the fault and the
@@ -34,7 +37,7 @@ ModelFile read_detector_file(const std::filesystem::path& file, const DetectionC
 /// Reads the file of a second-look network, which takes several square patches at once.
 ModelFile read_second_look_file(const std::filesystem::path& file);
 
-/// Its metadata alone.
+/// The metadata of any of them alone.
 OnnxMetadata read_model_metadata(const std::filesystem::path& file);
 
 /// Reads one name per line. Throws std::runtime_error naming the file if it cannot be read or names no class.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "candidates.hpp"
+#include "output_facts.hpp"
 #include "patch.hpp"
 
 namespace geoloc::io {
@@ -19,40 +21,37 @@ std::unique_ptr<Network> load(const ModelFile& model, const DetectionConfig& con
   refuse_model(model.name, "no such back end");
 }
 
-void check_shape(const ModelFile& model, const std::vector<std::int64_t>& shape, DetectionNetwork& network) {
-  const bool has_names = network.class_names.has_value();
-  const std::size_t rows = has_names ? YoloOutput::kBoxRows + network.class_names->size() : 0;
-  const bool fits = shape.size() == 3 && shape[0] == 1 && shape[1] > YoloOutput::kBoxRows &&
-                    (has_names ? static_cast<std::size_t>(shape[1]) == rows : shape[1] < shape[2]);
-  if (!fits) {
-    refuse_model(model.name, "its output is " + shape_text(shape) + ", not [1, " +
-                                 (has_names ? std::to_string(rows) : "4 + classes") +
-                                 ", candidates] as of YOLO11 detection models; YOLOv5's layout, exports with "
-                                 "nms=True, and models for segmentation, pose or rotated boxes are not "
-                                 "supported");
-  }
-  network.classes = static_cast<int>(shape[1]) - YoloOutput::kBoxRows;
-  network.candidates = static_cast<int>(shape[2]);
+/// The class that a network names for a plain input is one, if its numbers mean what they are taken for.
+void check_classes(const ModelFile& model, const cv::Mat& output, const OutputForm& form) {
+  if (form.layout != OutputLayout::kEnd2end && form.layout != OutputLayout::kRtdetrTop) return;
+  const std::vector<int> classes = best_scores({output.ptr<float>(), form}).class_ids;
+  if (std::find(classes.begin(), classes.end(), -1) == classes.end()) return;
+  refuse_model(model.name,
+               "its output has the shape of chosen boxes, " + std::string{shape_of(form.layout)} +
+                   ", but names no whole number below " + std::to_string(form.classes) +
+                   " as a box's class: say how it lists boxes with detection.layout (--layout), or "
+                   "name its classes with --class-names FILE");
 }
 
-/// The shape of the output for a plain input. Its values do not matter, but they must be numbers.
-std::vector<std::int64_t> try_out(const ModelFile& model, Network& network) {
+/// The output for a plain input. Its values do not matter, but they must be numbers.
+cv::Mat try_out(const ModelFile& model, Network& network) {
   const cv::Mat output = network.run(plain_input(model));
   const auto* values = output.ptr<float>();
   if (!std::all_of(values, values + output.total(), [](float value) { return std::isfinite(value); }))
     refuse_model(model.name,
                  "what it makes of a grey picture are no numbers (NaN or infinity): export again");
+  return output;
+}
+
+std::vector<std::int64_t> lengths_of(const cv::Mat& output) {
   return {output.size.p, output.size.p + output.dims};
 }
 
 }  // namespace
 
-DetectionNetwork load_network(const std::filesystem::path& file, const DetectionConfig& config) {
+DetectionNetwork load_network(const std::filesystem::path& file, std::optional<int> named_classes,
+                              const DetectionConfig& config) {
   const ModelFile model = read_detector_file(file, config);
-  if (model.metadata.outputs.size() != 1) {
-    refuse_model(file, "has " + std::to_string(model.metadata.outputs.size()) +
-                           " outputs; a detector has one (segmentation is not supported)");
-  }
   DetectionNetwork network;
   network.input = model.input;
   const auto& properties = model.metadata.properties;
@@ -65,14 +64,16 @@ DetectionNetwork load_network(const std::filesystem::path& file, const Detection
                              " is not \"a,b\", two numbers of which a > 0 and b >= 0");
   }
   network.network = load(model, config);
-  check_shape(model, try_out(model, *network.network), network);
+  const cv::Mat output = try_out(model, *network.network);
+  network.form = settled_form(model, facts_of(model, lengths_of(output), named_classes), config.layout);
+  check_classes(model, output, network.form);
   return network;
 }
 
 SecondLookNetwork load_second_look(const std::filesystem::path& file, const DetectionConfig& config) {
   const ModelFile model = read_second_look_file(file);
   SecondLookNetwork network{load(model, config), model.batch, model.input.width_px};
-  const auto shape = try_out(model, *network.network);
+  const auto shape = lengths_of(try_out(model, *network.network));
   const std::vector<std::int64_t> wanted{model.batch, SecondLookAnswer::kValues};
   if (shape != wanted)
     refuse_model(file,
@@ -81,7 +82,7 @@ SecondLookNetwork load_second_look(const std::filesystem::path& file, const Dete
 }
 
 cv::Mat plain_input(const ModelFile& model) {
-  if (model.kind == InputKind::kPicture)
+  if (model.kind != InputKind::kNumbers)
     return {model.input.height_px, model.input.width_px, CV_8UC3, kLetterboxGrey};
   return {std::vector<int>{model.batch, 3, model.input.height_px, model.input.width_px}, CV_32F,
           cv::Scalar::all(0)};

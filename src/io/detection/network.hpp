@@ -41,14 +41,15 @@ std::unique_ptr<Network> load_with_openvino(const ModelFile& model, int threads)
 struct DetectionNetwork {
   std::unique_ptr<Network> network;
   ImageSize input;
-  int classes = 0;
-  int candidates = 0;
+  OutputForm form;
   std::optional<std::vector<std::string>> class_names;  ///< as the file has them
   std::optional<CentreSigma> centre_sigma;              ///< likewise
 };
 
-/// Throws std::runtime_error naming the file, the fault and the remedy.
-DetectionNetwork load_network(const std::filesystem::path& file, const DetectionConfig& config);
+/// `named_classes`: how many names are given besides those in the file. Throws std::runtime_error naming the
+/// file, the fault and the remedy.
+DetectionNetwork load_network(const std::filesystem::path& file, std::optional<int> named_classes,
+                              const DetectionConfig& config);
 
 /// A network for second looks (second_look.hpp), likewise.
 struct SecondLookNetwork {

@@ -58,10 +58,23 @@ OnnxTensor tensor_of(std::string_view value_info) {
 }
 
 /// NodeProto: 1 input, 4 op_type.
-bool is_split_by_input(std::string_view node) {
+void read_node(std::string_view node, OnnxMetadata& metadata) {
+  constexpr std::size_t kMostKinds = 300, kLongestName = 100;
+  const std::string_view kind = bytes_field(node, 4);
+  if (metadata.operators.size() < kMostKinds && kind.size() <= kLongestName) metadata.operators.emplace(kind);
   std::size_t inputs = 0;
   for_each_field(node, [&](const ProtobufField& field) { inputs += field.number == 1 ? 1U : 0U; });
-  return inputs > 1 && bytes_field(node, 4) == "Split";
+  if (inputs > 1 && kind == "Split") metadata.has_split_by_input = true;
+}
+
+/// TensorProto: 2 data_type.
+bool is_half_float(std::string_view tensor) {
+  constexpr std::uint64_t kFloat16 = 10;
+  bool is_half = false;
+  for_each_field(tensor, [&](const ProtobufField& field) {
+    if (field.number == 2 && field.is_integer) is_half = field.integer == kFloat16;
+  });
+  return is_half;
 }
 
 /// GraphProto: 1 node, 5 initializer (TensorProto: 8 name), 11 input, 12 output.
@@ -69,8 +82,9 @@ bool read_graph(std::string_view graph, OnnxMetadata& metadata) {
   std::set<std::string> constants;
   const bool is_whole = for_each_field(graph, [&](const ProtobufField& field) {
     if (!field.is_bytes) return;
-    if (field.number == 1 && is_split_by_input(field.bytes)) metadata.has_split_by_input = true;
+    if (field.number == 1) read_node(field.bytes, metadata);
     if (field.number == 5) constants.insert(text_field(field.bytes, 8));
+    if (field.number == 5 && is_half_float(field.bytes)) metadata.has_half_floats = true;
     if (field.number == 11) metadata.inputs.push_back(tensor_of(field.bytes));
     if (field.number == 12) metadata.outputs.push_back(tensor_of(field.bytes));
   });

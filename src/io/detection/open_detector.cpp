@@ -31,8 +31,9 @@ std::filesystem::path second_look_file(const DetectorFiles& files) {
 
 }  // namespace
 
-std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& config) {
-  throw_if_any(config.problems());
+std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& configured) {
+  throw_if_any(configured.problems());
+  const DetectionConfig config = with_model_defaults(files, configured);
   const auto second_look = second_look_file(files);
   const DetectionConfig first = second_look.empty() ? config : proposing(config);
   std::unique_ptr<Detector> detector = std::make_unique<YoloDetector>(files, first);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/core/version.hpp>
 #include <opencv2/dnn.hpp>
 #include <stdexcept>
 
 #include "network.hpp"
+#include "remedies.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -21,55 +23,55 @@ class QuietOpencv {
   cv::utils::logging::LogLevel level_;
 };
 
-/// OpenCV runs ultralytics' exports from 4.8 on. 4.6 fails on them and 4.7 on some. Both take a Split into
-/// given sizes for one into equal parts (opencv/opencv#23482), which gives wrong results instead of an error.
-constexpr bool kRunsExports = CV_VERSION_MAJOR > 4 || (CV_VERSION_MAJOR == 4 && CV_VERSION_MINOR >= 8);
-
-/// The remedy for an OpenCV that cannot run exports.
-std::string conversion_of(const ModelFile& model) {
-  const bool is_open = model.metadata.inputs.front().shape[2] == kUnknownLength;
-  const std::string size = is_open ? " --input-size " + std::to_string(model.input.width_px) + " " +
-                                         std::to_string(model.input.height_px)
-                                   : "";
-  return "convert it: python3 tools/onnx_for_opencv.py " + model.name.string() + " " +
-         model.name.stem().string() + "_opencv.onnx" + size + " (of float16 models, export half=False), or ";
-}
-
 [[noreturn]] void fail(const ModelFile& model, const char* action, const std::string& reason) {
   refuse_model(model.name, "OpenCV " CV_VERSION " cannot " + std::string{action} + " this model of opset " +
                                std::to_string(model.metadata.opset) + " (" + one_line(reason) + "); " +
-                               (kRunsExports ? "" : conversion_of(model)) +
-                               "run it as it is with --backend openvino");
+                               remedy_for_opencv(model));
 }
 
-void check_splits(const ModelFile& model) {
-  if (!kRunsExports && model.metadata.has_split_by_input)
-    fail(model, "run", "it does not know Split as of opset 13");
+/// Of several outputs, the one that lists boxes: OpenCV does not keep their order.
+cv::String output_of_boxes(cv::dnn::Net& net) {
+  const std::vector<cv::String> names = net.getUnconnectedOutLayersNames();
+  std::vector<cv::Mat> outputs;
+  net.forward(outputs, names);
+  const auto is_list = [](const cv::Mat& output) { return output.dims == 3; };
+  const auto found = std::find_if(outputs.begin(), outputs.end(), is_list);
+  if (found == outputs.end()) throw std::runtime_error("no output lists boxes");
+  return names.at(static_cast<std::size_t>(found - outputs.begin()));
 }
 
 class OpencvNetwork final : public Network {
  public:
   explicit OpencvNetwork(const ModelFile& model)
-      : net_(cv::dnn::readNetFromONNX(model.bytes.data(), model.bytes.size())), kind_(model.kind) {}
+      : net_(cv::dnn::readNetFromONNX(model.bytes.data(), model.bytes.size())), kind_(model.kind) {
+    if (model.metadata.outputs.size() == 1) return;
+    set_input(plain_input(model));
+    output_ = output_of_boxes(net_);
+  }
 
   cv::Mat run(const cv::Mat& input) override {
-    constexpr bool kSwapRedAndBlue = true;
-    if (kind_ == InputKind::kPicture)
-      cv::dnn::blobFromImage(input, numbers_, 1.0 / 255.0, {}, {}, kSwapRedAndBlue);
-    net_.setInput(kind_ == InputKind::kPicture ? numbers_ : input);
-    return net_.forward();
+    set_input(input);
+    return net_.forward(output_);
   }
 
  private:
+  void set_input(const cv::Mat& input) {
+    const bool is_rgb = kind_ == InputKind::kPicture;
+    if (kind_ == InputKind::kNumbers) return net_.setInput(input);
+    cv::dnn::blobFromImage(input, numbers_, is_rgb ? 1.0 / 255.0 : 1.0, {}, {}, is_rgb);
+    net_.setInput(numbers_);
+  }
+
   cv::dnn::Net net_;
   InputKind kind_;
-  cv::Mat numbers_;  // of the input picture
+  cv::String output_;  // empty: the only one
+  cv::Mat numbers_;    // of the input picture
 };
 
 }  // namespace
 
 std::unique_ptr<Network> load_with_opencv(const ModelFile& model) {
-  check_splits(model);
+  refuse_what_opencv_mistakes(model);
   const QuietOpencv quiet;
   const char* action = "load";
   try {

@@ -7,30 +7,38 @@
 
 #include "geoloc/io/detection/yolo_detector.hpp"
 #include "network.hpp"
+#include "remedies.hpp"
 
 namespace geoloc::io {
 namespace {
 
-void take_pictures(ov::preprocess::PrePostProcessor& steps) {
-  steps.input()
-      .tensor()
-      .set_element_type(ov::element::u8)
-      .set_layout("NHWC")
-      .set_color_format(ov::preprocess::ColorFormat::BGR);
-  steps.input()
-      .preprocess()
-      .convert_color(ov::preprocess::ColorFormat::RGB)
-      .convert_element_type(ov::element::f32)
-      .scale(255.0F);
+void take_pictures(InputKind kind, ov::preprocess::PrePostProcessor& steps) {
+  auto& tensor = steps.input().tensor().set_element_type(ov::element::u8).set_layout("NHWC");
+  auto& preparation = steps.input().preprocess();
+  if (kind == InputKind::kPicture) {
+    tensor.set_color_format(ov::preprocess::ColorFormat::BGR);
+    preparation.convert_color(ov::preprocess::ColorFormat::RGB);
+  }
+  preparation.convert_element_type(ov::element::f32);
+  if (kind == InputKind::kPicture) preparation.scale(255.0F);
   steps.input().model().set_layout("NCHW");
 }
 
-/// The model with an input as the file's InputKind says and an output of 32-bit floats, whatever its own
+/// What only other outputs need is then not computed.
+void keep_only_output(std::size_t kept, ov::Model& model) {
+  const ov::ResultVector results = model.get_results();
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (i != kept) model.remove_result(results[i]);
+  }
+}
+
+/// The model with an input as the file's InputKind says and one output, of 32-bit floats, whatever its own
 /// types.
-std::shared_ptr<ov::Model> with_input_of(const ModelFile& file, const std::shared_ptr<ov::Model>& model) {
+std::shared_ptr<ov::Model> fitted_to(const ModelFile& file, const std::shared_ptr<ov::Model>& model) {
   model->reshape(ov::PartialShape{file.batch, 3, file.input.height_px, file.input.width_px});
+  keep_only_output(file.output, *model);
   ov::preprocess::PrePostProcessor steps(model);
-  if (file.kind == InputKind::kPicture) take_pictures(steps);
+  if (file.kind != InputKind::kNumbers) take_pictures(file.kind, steps);
   if (file.kind == InputKind::kNumbers) steps.input().tensor().set_element_type(ov::element::f32);
   steps.output().tensor().set_element_type(ov::element::f32);
   return steps.build();
@@ -50,7 +58,7 @@ class OpenvinoNetwork final : public Network {
   OpenvinoNetwork(const ModelFile& file, int threads) : kind_(file.kind) {
     const auto model = core_.read_model(std::string{file.bytes.begin(), file.bytes.end()}, ov::Tensor{});
     request_ =
-        core_.compile_model(with_input_of(file, model), "CPU", settings_for(threads)).create_infer_request();
+        core_.compile_model(fitted_to(file, model), "CPU", settings_for(threads)).create_infer_request();
   }
 
   cv::Mat run(const cv::Mat& input) override {
@@ -84,7 +92,8 @@ std::unique_ptr<Network> load_with_openvino(const ModelFile& model, int threads)
     return std::make_unique<OpenvinoNetwork>(model, threads);
   } catch (const std::exception& error) {
     refuse_model(model.name, "OpenVINO cannot load this model of opset " +
-                                 std::to_string(model.metadata.opset) + " (" + one_line(error.what()) + ")");
+                                 std::to_string(model.metadata.opset) + " (" + one_line(error.what()) +
+                                 "); " + remedy_for_openvino(model));
   }
 }
 

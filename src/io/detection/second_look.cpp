@@ -8,17 +8,27 @@
 
 #include "boxes.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/io/detection/yolo_detector.hpp"
 #include "network.hpp"
 #include "patch.hpp"
 #include "picture.hpp"
 
 namespace geoloc::io {
 
+namespace {
+
+DetectionConfig checked(DetectionConfig config) {
+  throw_if_any(config.problems());
+  if (config.confidence <= 0.0) config.confidence = kConfidenceOfOurModels;
+  return config;
+}
+
+}  // namespace
+
 class SecondLookDetector::Impl {
  public:
   Impl(std::unique_ptr<Detector> first, const std::filesystem::path& network, const DetectionConfig& config)
-      : first_(std::move(first)), config_(config) {
-    throw_if_any(config_.problems());
+      : first_(std::move(first)), config_(checked(config)) {
     network_ = load_second_look(network, config_);
     const std::vector<int> shape{network_.batch, 3, network_.patch_px, network_.patch_px};
     patches_ = cv::Mat{shape, CV_32F, cv::Scalar::all(0)};

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <utility>
 
 #include "boxes.hpp"
+#include "candidates.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -13,69 +14,28 @@ namespace {
 /// Rounding in a network may lift a sigmoid over 1 by this much.
 constexpr double kScoreTolerance = 1e-3;
 
-class Values {
- public:
-  explicit Values(const YoloOutput& output) : output_(output) {}
-
-  double operator()(int row, int candidate) const {
-    return output_.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(output_.candidates) +
-                          static_cast<std::size_t>(candidate)];
-  }
-
- private:
-  const YoloOutput& output_;
+struct Found {
+  std::vector<OutlinedDetection> in_input;
+  std::size_t rejected = 0;
+  double best_score_below = 0.0;
 };
 
-/// The best class of each candidate, computed row by row as the scores lie in memory.
-struct BestScores {
-  std::vector<float> values;
-  std::vector<int> class_ids;
-};
-
-BestScores best_scores(const YoloOutput& output) {
-  const auto candidates = static_cast<std::size_t>(output.candidates);
-  const float* row = output.values + YoloOutput::kBoxRows * candidates;
-  BestScores best{{row, row + candidates}, std::vector<int>(candidates, 0)};
-  for (int class_id = 1; class_id < output.classes; ++class_id) {
-    row += candidates;
-    for (std::size_t i = 0; i < candidates; ++i) {
-      const bool is_better =
-          !(row[i] <= best.values[i]) && !std::isnan(best.values[i]);  // NaN wins, and stays
-      best.class_ids[i] = is_better ? class_id : best.class_ids[i];
-      best.values[i] = is_better ? row[i] : best.values[i];
-    }
-  }
-  return best;
-}
-
-/// The box in the network's input; nullopt if it is impossible.
-std::optional<Box> box_of(const YoloOutput& output, int candidate) {
-  const Values values{output};
-  const double width = values(2, candidate);
-  const double height = values(3, candidate);
-  const Box box{values(0, candidate) - 0.5 * width, values(1, candidate) - 0.5 * height, width, height};
-  if (!(std::isfinite(box.x) && std::isfinite(box.y) && std::isfinite(width) && std::isfinite(height)))
-    return std::nullopt;
-  if (!(width > 0 && height > 0)) return std::nullopt;
-  return box;
-}
-
-DecodedBoxes confident_boxes(const YoloOutput& output, double threshold) {
-  DecodedBoxes found;
+Found confident_boxes(const YoloOutput& output, ImageSize input, double threshold) {
+  Found found;
   const BestScores best = best_scores(output);
-  for (int candidate = 0; candidate < output.candidates; ++candidate) {
+  for (int candidate = 0; candidate < output.form.candidates; ++candidate) {
     const double score = best.values[static_cast<std::size_t>(candidate)];
+    const int class_id = best.class_ids[static_cast<std::size_t>(candidate)];
     if (score < threshold) {
       found.best_score_below = std::max(found.best_score_below, score);
       continue;
     }
-    const auto box = box_of(output, candidate);
-    if (!box || !(score <= 1 + kScoreTolerance)) {
+    const auto outline = outline_of(output, input, candidate);
+    if (!outline || class_id < 0 || !(score <= 1 + kScoreTolerance)) {
       ++found.rejected;
       continue;
     }
-    found.detections.push_back(
-        {*box, std::min(score, 1.0), best.class_ids[static_cast<std::size_t>(candidate)]});
+    found.in_input.push_back({{outline->upright, std::min(score, 1.0), class_id}, outline->rotated});
   }
   return found;
 }
@@ -98,12 +58,15 @@ double intersection_over_union(const Box& a, const Box& b) {
   return intersection / (a.width * a.height + b.width * b.height - intersection);
 }
 
-DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize picture,
-                         const DetectionConfig& config, const std::optional<CentreSigma>& sigma) {
-  DecodedBoxes decoded = confident_boxes(output, config.confidence);
-  const std::vector<Detection> in_input = suppress_overlaps(std::move(decoded.detections), config);
-  decoded.detections.clear();
-  for (const Detection& detection : in_input) {
+DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize input,
+                         ImageSize picture, const DetectionConfig& config,
+                         const std::optional<CentreSigma>& sigma) {
+  Found found = confident_boxes(output, input, config.confidence);
+  const std::vector<OutlinedDetection> kept = needs_no_suppression(output.form.layout)
+                                                  ? most_confident(std::move(found.in_input), config)
+                                                  : suppress_overlaps(std::move(found.in_input), config);
+  DecodedBoxes decoded{{}, found.rejected, found.best_score_below};
+  for (const OutlinedDetection& detection : kept) {
     const Box whole = letterbox.to_picture(detection.box);
     const auto box = clipped(whole, picture);
     if (!box) continue;

@@ -15,12 +15,15 @@
 namespace geoloc::io {
 namespace {
 
+std::optional<std::vector<std::string>> given_names(const DetectorFiles& files) {
+  return files.class_names ? std::optional{read_class_names(*files.class_names)} : std::nullopt;
+}
+
 std::vector<std::string> names_for(const DetectorFiles& files, const DetectionNetwork& network) {
-  const auto classes = static_cast<std::size_t>(network.classes);
-  if (files.class_names) {
-    auto names = read_class_names(*files.class_names);
-    if (names.size() == classes) return names;
-    throw std::runtime_error(files.class_names->string() + ": has " + std::to_string(names.size()) +
+  const auto classes = static_cast<std::size_t>(network.form.classes);
+  if (auto names = given_names(files)) {
+    if (names->size() == classes) return *names;
+    throw std::runtime_error(files.class_names->string() + ": has " + std::to_string(names->size()) +
                              " names; " + files.model.string() + " has " + std::to_string(classes) +
                              " classes");
   }
@@ -30,18 +33,26 @@ std::vector<std::string> names_for(const DetectorFiles& files, const DetectionNe
   return names;
 }
 
-DetectionConfig checked(const DetectionConfig& config) {
+DetectionConfig checked(const DetectorFiles& files, const DetectionConfig& config) {
   throw_if_any(config.problems());
-  return config;
+  return with_model_defaults(files, config);
+}
+
+/// RT-DETR is trained on pictures that fill its input, whatever their aspect ratio.
+Letterbox placement(ImageSize picture, ImageSize input, OutputLayout layout) {
+  const bool is_stretched = layout == OutputLayout::kRtdetr || layout == OutputLayout::kRtdetrTop;
+  return is_stretched ? stretch_to(picture, input) : fit_letterbox(picture, input);
 }
 
 }  // namespace
 
 class YoloDetector::Impl {
  public:
-  Impl(const DetectorFiles& files, const DetectionConfig& config) : config_(checked(config)) {
+  Impl(const DetectorFiles& files, const DetectionConfig& config) : config_(checked(files, config)) {
     if (config_.backend == Backend::kOpencv && config_.threads > 0) cv::setNumThreads(config_.threads);
-    network_ = load_network(files.model, config_);
+    const auto names = given_names(files);
+    network_ = load_network(files.model,
+                            names ? std::optional{static_cast<int>(names->size())} : std::nullopt, config_);
     class_names_ = names_for(files, network_);
     canvas_ = cv::Mat{network_.input.height_px, network_.input.width_px, CV_8UC3, kLetterboxGrey};
   }
@@ -65,14 +76,14 @@ class YoloDetector::Impl {
  private:
   std::vector<Detection> detect_in_bgr(const cv::Mat& bgr) {
     const ImageSize size{bgr.cols, bgr.rows};
-    const Letterbox letterbox = fit_letterbox(size, network_.input);
+    const Letterbox letterbox = placement(size, network_.input, network_.form.layout);
     fill_canvas(bgr, letterbox);
     const cv::Mat output = network_.network->run(canvas_);
-    if (output.total() != static_cast<std::size_t>(network_.candidates) * (4 + class_names_.size())) {
+    const OutputForm& form = network_.form;
+    if (output.total() != static_cast<std::size_t>(form.candidates) * static_cast<std::size_t>(form.values))
       throw std::runtime_error("the output changed its size");
-    }
-    const DecodedBoxes decoded = decode_yolo({output.ptr<float>(), network_.classes, network_.candidates},
-                                             letterbox, size, config_, network_.centre_sigma);
+    const DecodedBoxes decoded = decode_yolo({output.ptr<float>(), form}, letterbox, network_.input, size,
+                                             config_, network_.centre_sigma);
     counts_.rejected_boxes += decoded.rejected;
     counts_.best_score_below = std::max(counts_.best_score_below, decoded.best_score_below);
     return decoded.detections;
@@ -94,6 +105,15 @@ class YoloDetector::Impl {
   cv::Mat canvas_;  // the letterboxed picture
   cv::Rect place_;  // of the picture in it
 };
+
+DetectionConfig with_model_defaults(const DetectorFiles& files, DetectionConfig config) {
+  if (config.confidence > 0.0) return config;
+  const auto properties = read_model_metadata(files.model).properties;
+  const auto first = properties.lower_bound(kOurKeys);
+  const bool is_ours = first != properties.end() && first->first.rfind(kOurKeys, 0) == 0;
+  config.confidence = is_ours ? kConfidenceOfOurModels : kConfidenceOfOtherModels;
+  return config;
+}
 
 YoloDetector::YoloDetector(const DetectorFiles& files, const DetectionConfig& config)
     : impl_(std::make_unique<Impl>(files, config)) {}

@@ -33,6 +33,10 @@ std::vector<float> tensor(const std::vector<Candidate>& candidates) {
   return values;
 }
 
+OutputForm yolo11(int classes, int candidates) {
+  return {OutputLayout::kYolo11, classes, candidates, 4 + classes, false};
+}
+
 constexpr ImageSize kPicture{640, 384};
 
 /// The threshold that the scores below are chosen around, whatever the default is.
@@ -41,13 +45,14 @@ const DetectionConfig kThreshold04{0.4, 0.5, 300, 0};
 DecodedBoxes decode(const std::vector<Candidate>& candidates, const DetectionConfig& config = kThreshold04,
                     ImageSize picture = kPicture) {
   const std::vector<float> values = tensor(candidates);
-  return decode_yolo({values.data(), static_cast<int>(candidates.front().scores.size()),
-                      static_cast<int>(candidates.size())},
-                     fit_letterbox(picture, kPicture), picture, config);
+  const auto classes = static_cast<int>(candidates.front().scores.size());
+  return decode_yolo({values.data(), yolo11(classes, static_cast<int>(candidates.size()))},
+                     fit_letterbox(picture, kPicture), kPicture, picture, config);
 }
 
 TEST(YoloDecode, TurnsCentresIntoCornersOfThePicture) {
-  const auto decoded = decode({{100, 50, 20, 10, {0.9F}}}, {}, {1280, 720});  // scale 1/2, bars of 12 px
+  const auto decoded =
+      decode({{100, 50, 20, 10, {0.9F}}}, kThreshold04, {1280, 720});  // scale 1/2, bars of 12 px
   ASSERT_EQ(decoded.detections.size(), 1U);
   const Box& box = decoded.detections[0].box;
   EXPECT_NEAR(box.x, 180, 1e-4);
@@ -85,7 +90,7 @@ TEST(YoloDecode, WhatStaysDoesNotOverlapAndWhateverTheOrderOfTheCandidatesItStay
     candidates.push_back(
         {place(random), place(random), size(random), size(random), {score(random), score(random)}});
   }
-  DetectionConfig config;
+  DetectionConfig config = kThreshold04;
   config.max_detections = 1000;
   const auto kept = decode(candidates, config).detections;
   EXPECT_LT(kept.size(), candidates.size() - 10);
@@ -143,8 +148,8 @@ TEST(YoloDecode, StatesTheSigmaOfCentresInPixelsOfThePicture) {
       tensor({{100, 50, 20, 5, {0.9F}}, {300, 50, 40, 40, {0.8F}}, {638, 50, 20, 20, {0.7F}}});
   constexpr ImageSize kPictureSize{1280, 720};
   const auto decode_with = [&](const std::optional<CentreSigma>& sigma) {
-    return decode_yolo({values.data(), 1, 3}, fit_letterbox(kPictureSize, kPicture), kPictureSize,
-                       kThreshold04, sigma)
+    return decode_yolo({values.data(), yolo11(1, 3)}, fit_letterbox(kPictureSize, kPicture), kPicture,
+                       kPictureSize, kThreshold04, sigma)
         .detections;
   };
   const auto stated = decode_with(CentreSigma{0.3, 0.02});

@@ -11,7 +11,7 @@ struct ImageSize {
 };
 
 /// Where a picture lies in a network's input: scaled to fit with its aspect ratio kept, centred between grey
-/// bars.
+/// bars, or stretched over it.
 ///
 /// Boxes have continuous edges (camera/detection.hpp), and cv::resize keeps those: it samples the source at
 /// (i + 1/2) * scale - 1/2 for the destination's pixel i, so the left edge 0 stays 0 and the right edge stays
@@ -30,5 +30,8 @@ struct Letterbox {
 
 /// Both sizes must be positive. The scaled picture is at least one pixel wide and high.
 Letterbox fit_letterbox(ImageSize picture, ImageSize input);
+
+/// The picture fills the input, and its aspect ratio changes. Both sizes must be positive.
+Letterbox stretch_to(ImageSize picture, ImageSize input);
 
 }  // namespace geoloc::io

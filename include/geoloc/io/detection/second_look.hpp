@@ -19,8 +19,9 @@ namespace geoloc::io {
 /// The network: ONNX, patches [batch, 3, side, side] (docs/detection.md) to answers [batch, 6].
 class SecondLookDetector final : public Detector {
  public:
-  /// `first` should propose too much rather than too little (proposing()). Throws std::runtime_error naming
-  /// the file, the fault and the remedy; std::invalid_argument for a bad configuration.
+  /// `first` should propose too much rather than too little (proposing()). A confidence of 0 is that of
+  /// models made for geoloc. Throws std::runtime_error naming the file, the fault and the remedy;
+  /// std::invalid_argument for a bad configuration.
   SecondLookDetector(std::unique_ptr<Detector> first, const std::filesystem::path& network,
                      const DetectionConfig& config);
   ~SecondLookDetector() override;

@@ -8,18 +8,14 @@
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/io/detection/detection_config.hpp"
 #include "geoloc/io/detection/letterbox.hpp"
+#include "geoloc/io/detection/output_layout.hpp"
 
 namespace geoloc::io {
 
-/// The output [1, 4 + classes, candidates] of YOLO11 and its relatives (v8 to v12). Its rows, with one value
-/// per candidate, are centre x, centre y, width, height in pixels of the network's input (continuous edges),
-/// then one score in 0..1 per class.
+/// What a network made of a picture: form.candidates x form.values numbers, in the order of form.layout.
 struct YoloOutput {
-  static constexpr int kBoxRows = 4;
-
   const float* values = nullptr;
-  int classes = 0;
-  int candidates = 0;
+  OutputForm form;
 };
 
 /// Per-axis 1-sigma of a box's centre in pixels of the network's input: hypot(constant_px, of_size * size),
@@ -31,15 +27,19 @@ struct CentreSigma {
 
 struct DecodedBoxes {
   std::vector<Detection> detections;  ///< in pixels of the picture, clipped to it, most confident first
-  std::size_t rejected = 0;  ///< confident boxes that are not finite or of no size; scores above 1 or NaN
+  std::size_t rejected = 0;  ///< confident boxes that are not finite or of no size, or of no class; scores
+                             ///< above 1 or NaN
   double best_score_below = 0.0;  ///< of the candidates that did not reach the threshold
 };
 
-/// Applies the threshold and non-maximum suppression within each class, and maps boxes from the network's
-/// input to the picture. A candidate counts only for its best class. Boxes are clipped to the picture.
-/// Without `sigma`, and for clipped boxes, Detection::sigma_px is not stated.
-DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize picture,
-                         const DetectionConfig& config, const std::optional<CentreSigma>& sigma = {});
+/// Applies the threshold and, where the network did not, non-maximum suppression within each class, and maps
+/// boxes from the network's input to the picture. A candidate counts only for its best class. Of a rotated
+/// box, the upright box around it is given; suppression compares the rotated ones. Boxes are clipped to the
+/// picture. Without `sigma`, and for clipped boxes, Detection::sigma_px is not stated. `input`: of the
+/// network.
+DecodedBoxes decode_yolo(const YoloOutput& output, const Letterbox& letterbox, ImageSize input,
+                         ImageSize picture, const DetectionConfig& config,
+                         const std::optional<CentreSigma>& sigma = {});
 
 /// Area of the intersection over that of the union; 0 where they do not touch.
 double intersection_over_union(const Box& a, const Box& b);

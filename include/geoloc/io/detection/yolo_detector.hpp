@@ -14,7 +14,7 @@
 namespace geoloc::io {
 
 struct DetectorFiles {
-  std::filesystem::path model;  ///< ONNX, output [1, 4 + classes, candidates] (yolo_decode.hpp)
+  std::filesystem::path model;                       ///< ONNX, with an output as of output_layout.hpp
   std::optional<std::filesystem::path> class_names;  ///< one name per line; without it, those in the model
   /// Network for second looks (second_look.hpp); empty: none; unset: the one that the model's metadata name,
   /// beside the model.
@@ -48,6 +48,14 @@ class YoloDetector final : public Detector {
 /// The detector that files and configuration specify: with or without tiles, with or without a second look.
 /// Throws as YoloDetector does.
 std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& config);
+
+/// The configuration with what it leaves to the model: where its confidence is 0, a geoloc model's, told by
+/// metadata that begin with geoloc_, or that of all others. Throws as YoloDetector does where the file cannot
+/// be read.
+DetectionConfig with_model_defaults(const DetectorFiles& files, DetectionConfig config);
+
+inline constexpr double kConfidenceOfOurModels = 0.8;     // docs/model.md says why
+inline constexpr double kConfidenceOfOtherModels = 0.25;  // as ultralytics, whose models are trained for it
 
 /// Whether Backend::kOpenvino can be chosen.
 bool has_openvino();
