@@ -90,9 +90,13 @@ void decode(benchmark::State& state) {
     const std::size_t row = i / kCandidates;
     values[i] = row < 2 ? place(random) : row < 4 ? 20.0F : score(random);
   }
-  const io::Letterbox box = io::fit_letterbox(kPictureSize, {640, 384});
+  constexpr io::ImageSize kInput{640, 384};
+  const io::Letterbox box = io::fit_letterbox(kPictureSize, kInput);
+  const io::OutputForm form{io::OutputLayout::kYolo11, 1, kCandidates, 5};
+  io::DetectionConfig config;
+  config.confidence = 0.55;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(io::decode_yolo({values.data(), 1, kCandidates}, box, kPictureSize, {}));
+    benchmark::DoNotOptimize(io::decode_yolo({values.data(), form}, box, kInput, kPictureSize, config));
   }
 }
 BENCHMARK(decode)->Unit(benchmark::kMillisecond);
