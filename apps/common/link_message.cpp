@@ -53,7 +53,7 @@ std::string fault(const io::LinkStatus& link, const Geolocator& geolocator) {
   return {};
 }
 
-/// Of telemetry that comes.
+/// The message where telemetry comes.
 std::string comes(const io::LinkStatus& link, const Geolocator& geolocator) {
   if (!is_on_gimbal(geolocator)) return "telemetry comes";
   return fmt::format("telemetry comes, and the angles of gimbal {} ({:.0f}/s)", link.gimbal->number(),

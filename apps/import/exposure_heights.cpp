@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "common/geoid_data.hpp"
 #include "import/name_list.hpp"
+#include "import/sea_level.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -85,17 +85,6 @@ double height_m(const io::Still& still, const std::optional<double>& take_off_m)
   return *still.height_absolute_m - *take_off_m;
 }
 
-std::optional<double> above_sea_m(const std::vector<TimedStill>& stills, double absolute_m,
-                                  std::vector<std::string>& assumptions) {
-  if (!counts_from_ellipsoid(stills)) return absolute_m;
-  const auto undulation_m = open_geoid().height_ellipsoid_m(still_of(stills.front()).position, 0.0);
-  if (undulation_m) return absolute_m - *undulation_m;
-  assumptions.push_back(
-      "the pictures' absolute heights count from the ellipsoid (RTK), and there is no geoid on this computer "
-      "to convert them: heights above sea level in the outputs are those above the ellipsoid");
-  return absolute_m;
-}
-
 }  // namespace
 
 FlightHeights heights_of(const std::vector<TimedStill>& stills, const TakeOffHeights& take_off,
@@ -106,7 +95,11 @@ FlightHeights heights_of(const std::vector<TimedStill>& stills, const TakeOffHei
   for (const TimedStill& timed : stills)
     heights.above_take_off_m.push_back(height_m(still_of(timed), heights.take_off_absolute_m));
   if (heights.take_off_absolute_m) {
-    heights.take_off_msl_m = above_sea_m(stills, *heights.take_off_absolute_m, assumptions);
+    heights.take_off_msl_m =
+        counts_from_ellipsoid(stills)
+            ? height_msl_m(still_of(stills.front()).position, *heights.take_off_absolute_m,
+                           "the pictures' absolute heights count from the ellipsoid (RTK)", assumptions)
+            : *heights.take_off_absolute_m;
   } else {
     assumptions.push_back("the pictures tell no absolute heights: the take-off is taken to be at sea level");
   }

@@ -15,6 +15,7 @@
 #include "import/exposure_heights.hpp"
 #include "import/exposure_times.hpp"
 #include "import/flight_notes.hpp"
+#include "import/way.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -74,17 +75,6 @@ void keep_one_camera(std::vector<NamedStill>& stills, const FlightFacts& facts, 
         lens.intrinsics.fx_px));
 }
 
-/// From one picture to another, in east, north, up [m].
-Eigen::Vector3d way(const Exposure& from, const Exposure& to) {
-  constexpr double kMetresPerDegree = 111'319.5;
-  const Geodetic& a = from.position.position;
-  const Geodetic& b = to.position.position;
-  const double east_deg = std::remainder(b.longitude_deg - a.longitude_deg, 360.0);
-  return {east_deg * std::cos(a.latitude_deg * kRadPerDeg) * kMetresPerDegree,
-          (b.latitude_deg - a.latitude_deg) * kMetresPerDegree,
-          to.position.height_above_home_m - from.position.height_above_home_m};
-}
-
 bool is_leg(const Exposure& from, const Exposure& to) {
   return seconds(to.at - from.at) <= kLongestLeg_s;
 }
@@ -97,7 +87,7 @@ void take_velocities(std::vector<Exposure>& exposures) {
     const Exposure& from = exposures[i - (has_before ? 1 : 0)];
     const Exposure& to = exposures[i + (has_after ? 1 : 0)];
     if (has_before || has_after)
-      exposures[i].position.velocity_in_enu = way(from, to) / seconds(to.at - from.at);
+      exposures[i].position.velocity_in_enu = way(from.position, to.position) / seconds(to.at - from.at);
   }
 }
 

@@ -48,12 +48,12 @@ void take_utc(const io::FlightLog& log, std::optional<double> utc_offset_h, Flig
 }
 
 /// A gimbal that keeps its pitch and looks where the vehicle heads.
-std::vector<io::GimbalSample> level_gimbal(const std::vector<AttitudeSample>& attitudes, double pitch_deg) {
-  std::vector<io::GimbalSample> gimbal;
+std::vector<io::LoggedGimbal> level_gimbal(const std::vector<AttitudeSample>& attitudes, double pitch_deg) {
+  std::vector<io::LoggedGimbal> gimbal;
   gimbal.reserve(attitudes.size());
   for (const AttitudeSample& attitude : attitudes)
     gimbal.push_back(
-        {attitude.time, {0.0, pitch_deg * kRadPerDeg, attitude.angles.yaw_rad}, io::GimbalYaw::kFromNorth});
+        {attitude.time, {0.0, pitch_deg * kRadPerDeg, attitude.angles.yaw_rad}, GimbalYaw::kFromNorth});
   return gimbal;
 }
 
@@ -68,13 +68,13 @@ std::vector<AttitudeSample> level_north(const std::vector<Sample>& samples) {
 }
 
 /// Yaws that count from the nose, plus the vehicle's. Both are sorted.
-void count_from_north(const std::vector<AttitudeSample>& attitudes, std::vector<io::GimbalSample>& gimbal) {
+void count_from_north(const std::vector<AttitudeSample>& attitudes, std::vector<io::LoggedGimbal>& gimbal) {
   std::size_t near = 0;
-  for (io::GimbalSample& sample : gimbal) {
-    if (sample.yaw == io::GimbalYaw::kFromNorth) continue;
+  for (io::LoggedGimbal& sample : gimbal) {
+    if (sample.yaw == GimbalYaw::kFromNorth) continue;
     while (near + 1 < attitudes.size() && attitudes[near + 1].time <= sample.time) ++near;
     sample.angles.yaw_rad = wrap_to_pi(sample.angles.yaw_rad + attitudes[near].angles.yaw_rad);
-    sample.yaw = io::GimbalYaw::kFromNorth;
+    sample.yaw = GimbalYaw::kFromNorth;
   }
 }
 
@@ -99,7 +99,7 @@ void take_angles(io::FlightLog& log, const TrackFacts& facts, FlightTrack& track
   track.attitudes = std::move(log.attitudes);
   track.gimbal = std::move(log.gimbal);
   const bool has_nose_yaws = std::any_of(track.gimbal.begin(), track.gimbal.end(), [](const auto& sample) {
-    return sample.yaw == io::GimbalYaw::kFromNose;
+    return sample.yaw == GimbalYaw::kFromNose;
   });
   if (track.attitudes.empty() && has_nose_yaws) track.gimbal.clear();
   if (track.attitudes.empty() && track.gimbal.empty()) return assume_camera(facts, track);

@@ -22,7 +22,7 @@ struct FlightTrack {
   std::vector<AttitudeSample> attitudes;
   std::vector<PositionSample> positions;  ///< each with heights and a velocity
   std::vector<io::LoggedFix> fixes;
-  std::vector<io::GimbalSample> gimbal;  ///< each from north; empty: the camera is fixed in the vehicle
+  std::vector<io::LoggedGimbal> gimbal;  ///< each from north; empty: the camera is fixed in the vehicle
   VehicleTime begin;                     ///< of the first sample of the vehicle's state
   VehicleTime end;
   Duration utc_since_log{};  ///< what UTC is ahead of the log's clock

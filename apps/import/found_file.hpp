@@ -30,7 +30,7 @@ class FoundFile {
   /// What was found before.
   const std::vector<VideoLook>& looks() const { return looks_; }
 
-  /// Of the next frame. Throws std::runtime_error where the disk does not take it.
+  /// Adds what was seen in the next frame. Throws std::runtime_error where the disk does not take it.
   void add(VideoLook look);
 
   /// It is no longer needed.

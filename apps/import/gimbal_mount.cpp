@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/attitude.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -35,12 +35,7 @@ std::optional<CameraMount> gimbal_mount(const FlightTrack& track, const CameraMo
   const auto ned_from_vehicle = turn_at(track.attitudes, time);
   const auto ned_from_gimbal = turn_at(track.gimbal, time);
   if (!ned_from_vehicle || !ned_from_gimbal) return std::nullopt;
-  const EulerAngles turn = euler_angles(ned_from_vehicle->conjugate() * *ned_from_gimbal);
-  CameraMount here = mount;
-  here.roll_deg = turn.roll_rad * kDegPerRad;
-  here.pitch_deg = turn.pitch_rad * kDegPerRad;
-  here.yaw_deg = turn.yaw_rad * kDegPerRad;
-  return here;
+  return mount.turned_to(ned_from_vehicle->conjugate() * *ned_from_gimbal);
 }
 
 }  // namespace geoloc::apps

@@ -24,10 +24,8 @@ class RecordingMaker {
 
   /// The vehicle's state at every exposure, and a frame of each that was looked at.
   void write(const FlightPlan& plan, const PictureLooks& looks);
-  void write_truth(const std::vector<io::TrueTarget>& targets) { writer_.write_truth(targets); }
-  void write_class_names(const std::vector<std::string>& names) { writer_.write_class_names(names); }
 
-  /// For recordings of other things than pictures.
+  /// Writes what else belongs into the recording.
   io::RecordingWriter& writer() { return writer_; }
 
   /// Gives the recording its name.

@@ -13,12 +13,11 @@
 #include "detect/inputs.hpp"
 #include "geoloc/io/json/camera_file.hpp"
 #include "import/flight_plan.hpp"
-#include "import/import_detector.hpp"
 #include "import/import_words.hpp"
+#include "import/look_source.hpp"
 #include "import/picture_looks.hpp"
 #include "import/picture_reader.hpp"
 #include "import/recording_maker.hpp"
-#include "import/survey_truth.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -55,18 +54,16 @@ FlightFacts facts_of(const StillsOptions& options, const std::optional<io::Label
 struct StillsProgram {
   explicit StillsProgram(const StillsOptions& given)
       : options(given), inputs(files_of(find_inputs(given.inputs))) {
-    if (!options.labels_file.empty())
-      labels = io::parse_labels(io::read_text_file(options.labels_file), options.labels_file);
-    facts = facts_of(options, labels);
-    if (!labels) found_by = open_import_detector(options.detector, options.tuning);
+    source.labels = labels_in(options.labels_file);
+    facts = facts_of(options, source.labels);
+    open_detector_unless_labelled(options.detector, options.tuning, source);
     recording = std::make_unique<RecordingMaker>(options.out);
   }
 
   StillsOptions options;
   std::vector<std::filesystem::path> inputs;
-  std::optional<io::Labels> labels;
+  LookSource source;
   FlightFacts facts;
-  ImportDetector found_by;
   std::unique_ptr<RecordingMaker> recording;
 };
 
@@ -83,9 +80,10 @@ FlightPlan plan_of(const StillsProgram& program, const StopSignal& stop) {
 
 PictureLooks looks_of(const StillsProgram& program, const FlightPlan& plan, const StopSignal& stop) {
   if (stop.is_requested()) return {};
-  PictureLooks looks = program.labels
-                           ? labelled_looks(plan.exposures, *program.labels, program.options.labels_file)
-                           : detected_looks(plan.exposures, *program.found_by.detector, stop);
+  const LookSource& source = program.source;
+  PictureLooks looks = source.labels
+                           ? labelled_looks(plan.exposures, *source.labels, program.options.labels_file)
+                           : detected_looks(plan.exposures, *source.detector, stop);
   tell_left_out(looks.left_out);
   const bool is_blind = std::none_of(looks.by_exposure.begin(), looks.by_exposure.end(),
                                      [](const auto& look) { return look.has_value(); });
@@ -96,11 +94,7 @@ PictureLooks looks_of(const StillsProgram& program, const FlightPlan& plan, cons
 
 void write(StillsProgram& program, const FlightPlan& plan, const PictureLooks& looks) {
   program.recording->write(plan, looks);
-  if (program.labels && !program.labels->marks.empty())
-    program.recording->write_truth(true_targets(program.labels->marks));
-  const auto& class_names =
-      program.labels ? program.labels->class_names : program.found_by.detector->class_names();
-  if (!class_names.empty()) program.recording->write_class_names(class_names);
+  write_classes_and_truth(program.source, program.recording->writer());
   program.recording->finish();
 }
 
@@ -112,9 +106,7 @@ void tell_end(const StillsProgram& program, const PictureLooks& looks) {
   }
   tell(std::to_string(frames) + " pictures with " + std::to_string(detections) + " detections in " +
        program.options.out);
-  if (program.found_by.detector && detections == 0)
-    tell(nothing_detected(program.found_by.detector->counts(), program.found_by.config.confidence));
-  tell("next: geoloc_replay " + program.options.out + " --out objects.geojson");
+  tell_next_step(program.source, detections, program.options.out);
 }
 
 }  // namespace

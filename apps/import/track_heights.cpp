@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "geoloc/io/output/geoid.hpp"
+#include "import/sea_level.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -40,12 +40,9 @@ double sea_offset_m(const io::FlightLog& log, std::vector<std::string>& assumpti
   if (log.home_height_msl_m) return *log.home_height_msl_m;
   const auto& first = log.positions.front();
   if (first.heights.ellipsoid_m && first.heights.above_home_m) {
-    const auto undulation_m = io::Geoid().height_ellipsoid_m(first.position, 0.0);
-    if (!undulation_m)
-      assumptions.emplace_back(
-          "the log's absolute heights count from the ellipsoid, and there is no geoid on this computer to "
-          "convert them: heights above sea level in the outputs are those above the ellipsoid");
-    return *first.heights.ellipsoid_m - undulation_m.value_or(0.0) - *first.heights.above_home_m;
+    return height_msl_m(first.position, *first.heights.ellipsoid_m,
+                        "the log's absolute heights count from the ellipsoid", assumptions) -
+           *first.heights.above_home_m;
   }
   assumptions.emplace_back(
       "the log tells no heights above the sea: the take-off is taken to be at sea level");

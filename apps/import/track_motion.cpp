@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/geometry/angles.hpp"
+#include "import/way.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -13,15 +13,6 @@ using namespace std::chrono_literals;
 
 /// A vehicle that hovers is told at least so often.
 constexpr Duration kLongestGap = 500ms;
-
-/// From one position to another, in east, north, up [m].
-Eigen::Vector3d way(const PositionSample& from, const PositionSample& to) {
-  constexpr double kMetresPerDegree = 111'319.5;
-  const double east_deg = std::remainder(to.position.longitude_deg - from.position.longitude_deg, 360.0);
-  return {east_deg * std::cos(from.position.latitude_deg * kRadPerDeg) * kMetresPerDegree,
-          (to.position.latitude_deg - from.position.latitude_deg) * kMetresPerDegree,
-          to.height_above_home_m - from.height_above_home_m};
-}
 
 /// By the positions half a second before and after each.
 void take_differences(std::vector<PositionSample>& positions) {

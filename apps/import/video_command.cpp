@@ -11,11 +11,10 @@
 #include "common/command_line.hpp"
 #include "common/stop_signal.hpp"
 #include "geoloc/io/json/camera_file.hpp"
-#include "import/import_detector.hpp"
 #include "import/import_words.hpp"
 #include "import/log_source.hpp"
+#include "import/look_source.hpp"
 #include "import/recording_maker.hpp"
-#include "import/survey_truth.hpp"
 #include "import/video_camera.hpp"
 #include "import/video_looks.hpp"
 #include "import/video_offset.hpp"
@@ -54,14 +53,11 @@ struct VideoProgram {
         facts(video_facts(options.video)),
         camera(video_camera(options.camera_file, facts, log.focal_35mm_mm, assumptions)),
         offset(find_offset({facts.file.created_at, facts.file.duration}, log.times, told_offset(options))) {
-    if (!options.labels_file.empty())
-      labels = io::parse_labels(io::read_text_file(options.labels_file), options.labels_file);
-    if (!labels) {
-      found_by = open_import_detector(options.detector, options.tuning);
-      work = work_of(options, found_by.config);
-    }
+    source.labels = labels_in(options.labels_file);
+    open_detector_unless_labelled(options.detector, options.tuning, source);
+    const std::string work = source.detector ? work_of(options, source.config) : std::string{};
     recording = std::make_unique<RecordingMaker>(options.out);
-    if (!labels) found = std::make_unique<FoundFile>(options.out + ".found.jsonl", work);
+    if (source.detector) found = std::make_unique<FoundFile>(options.out + ".found.jsonl", work);
   }
 
   VideoOptions options;
@@ -70,9 +66,7 @@ struct VideoProgram {
   VideoFacts facts;
   CameraConfig camera;
   VideoOffset offset;
-  std::optional<io::Labels> labels;
-  ImportDetector found_by;
-  std::string work;
+  LookSource source;
   std::unique_ptr<RecordingMaker> recording;
   std::unique_ptr<FoundFile> found;  ///< of the detector
 };
@@ -90,10 +84,11 @@ void tell_begin(const VideoProgram& program) {
 
 std::vector<VideoLook> looks_of(VideoProgram& program, const StopSignal& stop) {
   std::vector<std::string> notes;
+  const VideoOptions& options = program.options;
   std::vector<VideoLook> looks =
-      program.labels
-          ? labelled_looks(program.options.video, *program.labels, program.options.labels_file, stop, notes)
-          : detected_looks(program.options.video, *program.found_by.detector, *program.found, stop, notes);
+      program.source.labels
+          ? labelled_looks(options.video, *program.source.labels, options.labels_file, stop, notes)
+          : detected_looks(options.video, *program.source.detector, *program.found, stop, notes);
   for (const std::string& note : notes) tell(note);
   if (looks.empty() && !stop.is_requested())
     throw std::runtime_error("no frame could be looked at, so that nothing was written");
@@ -106,11 +101,7 @@ void write(VideoProgram& program, const std::vector<VideoLook>& looks) {
       write_video_flight({program.log, program.camera, program.offset, looks}, writer);
   if (left_out > 0)
     tell(fmt::format("{} frames are left out: how the camera looked then is not known", left_out));
-  if (program.labels && !program.labels->marks.empty())
-    writer.write_truth(true_targets(program.labels->marks));
-  const auto& class_names =
-      program.labels ? program.labels->class_names : program.found_by.detector->class_names();
-  if (!class_names.empty()) writer.write_class_names(class_names);
+  write_classes_and_truth(program.source, writer);
   program.recording->finish();
   if (program.found) program.found->remove();
 }
@@ -119,9 +110,7 @@ void tell_end(const VideoProgram& program, const std::vector<VideoLook>& looks) 
   std::size_t detections = 0;
   for (const VideoLook& look : looks) detections += look.detections.size();
   tell(fmt::format("{} frames with {} detections in {}", looks.size(), detections, program.options.out));
-  if (program.found_by.detector && detections == 0)
-    tell(nothing_detected(program.found_by.detector->counts(), program.found_by.config.confidence));
-  tell("next: geoloc_replay " + program.options.out + " --out objects.geojson");
+  tell_next_step(program.source, detections, program.options.out);
 }
 
 int tell_stopped(const VideoProgram& program) {

@@ -122,6 +122,15 @@ CameraMount CameraMount::on_gimbal() {
   return mount;
 }
 
+CameraMount CameraMount::turned_to(const Eigen::Quaterniond& carrier_from_turned) const {
+  const EulerAngles turn = euler_angles(carrier_from_turned);
+  CameraMount mount = *this;
+  mount.roll_deg = turn.roll_rad * kDegPerRad;
+  mount.pitch_deg = turn.pitch_rad * kDegPerRad;
+  mount.yaw_deg = turn.yaw_rad * kDegPerRad;
+  return mount;
+}
+
 Rigid3d body_from_camera(const CameraMount& mount) {
   const EulerAngles angles{mount.roll_deg * kRadPerDeg, mount.pitch_deg * kRadPerDeg,
                            mount.yaw_deg * kRadPerDeg};

@@ -13,10 +13,10 @@ Rigid3d enu_from_camera(const VehicleState& state, const CameraMount& mount, Cam
 /// Pose of a camera on a gimbal: turned as the gimbal is, in the place of its lever arm in the body.
 Rigid3d enu_from_camera(const VehicleState& state, const GimbalState& gimbal, const CameraMount& mount);
 
-/// Of a camera that is fixed to the body.
+/// The turn of a camera that is fixed to the body.
 CameraTurn turn_of(const VehicleState& state);
 
-/// Of a camera on a gimbal.
+/// The turn of a camera on a gimbal.
 CameraTurn turn_of(const VehicleState& state, const GimbalState& gimbal);
 
 }  // namespace geoloc

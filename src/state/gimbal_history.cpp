@@ -25,7 +25,7 @@ struct Heading {
   double rate_radps = 0.0;
 };
 
-/// Of the nose, in axes of east, north and up; zero where it points up or down.
+/// The heading of the nose in axes of east, north and up; zero where it points up or down.
 Heading heading_of(const VehicleState& vehicle) {
   const Eigen::Vector3d nose =
       vehicle.enu_from_vehicle_ned.conjugate() * vehicle.enu_from_body.rotation * Eigen::Vector3d::UnitX();

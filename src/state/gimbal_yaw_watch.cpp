@@ -16,7 +16,7 @@ constexpr Duration kLongestTurn = std::chrono::seconds{15};
 /// In a second: less is no turn, and a gimbal that lags behind has caught up.
 constexpr double kStraight_rad = 3.0 * kRadPerDeg;
 constexpr double kLeastTurn_rad = 30.0 * kRadPerDeg;
-/// Of a turn, so much more or less is the same.
+/// Turns that differ by this share of their size are the same.
 constexpr double kSameShare = 0.25;
 /// A camera that looks ahead within so much is not held in a direction by chance.
 constexpr double kAhead_rad = 10.0 * kRadPerDeg;

@@ -41,7 +41,7 @@ inline void require_usable_log(const FlightLog& log, std::size_t size) {
     require_told(sample.heights.ellipsoid_m);
   }
   for (const AttitudeSample& sample : log.attitudes) require_told(sample.angles);
-  for (const GimbalSample& sample : log.gimbal) require_told(sample.angles);
+  for (const LoggedGimbal& sample : log.gimbal) require_told(sample.angles);
   for (const LoggedVelocity& sample : log.velocities) require_told(sample.velocity_in_enu.allFinite());
   for (const LoggedFix& fix : log.fixes) {
     require_told(is_valid(fix.position));

@@ -93,7 +93,7 @@ TEST_F(Gimbals, WithAYawFromTheNoseTurnWithItAloneAndNotWithRollAndPitch) {
   }
 }
 
-/// Of a gimbal that looks straight down, too, where angles of Euler turn over.
+/// The law holds for a gimbal that looks straight down, too, where angles of Euler turn over.
 TEST_F(Gimbals, TurnAtTheRateAtWhichTheirPoseChanges) {
   const auto swinging = [](double time_s) {
     return turned(0.0, -70.0 - 20.0 * std::sin(time_s), 30.0 * std::cos(0.7 * time_s));

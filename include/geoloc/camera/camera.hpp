@@ -45,8 +45,12 @@ struct CameraMount {
   double z_m = 0.0;
   MountKind kind = MountKind::kFixed;
 
-  /// Of a camera that looks where its gimbal says.
+  /// The mount of a camera that looks where its gimbal says.
   static CameraMount on_gimbal();
+
+  /// The mount in the same place of a camera that is turned so: `carrier_from_turned` takes its forward,
+  /// right and down to the carrier's. Near straight down, roll and yaw are one: it is yaw.
+  CameraMount turned_to(const Eigen::Quaterniond& carrier_from_turned) const;
 };
 
 enum class CameraOrientation {

@@ -49,7 +49,7 @@ struct BestClass {
   int class_id;
 };
 
-/// Of the scores from the value `first` on.
+/// The best of the scores from the value `first` on.
 BestClass best_class(const Candidate& candidate, std::size_t first, int classes) {
   BestClass best{candidate[first], 0};
   for (int class_id = 1; class_id < classes; ++class_id) {
@@ -87,7 +87,7 @@ struct Place {
 
 /// The cell that a candidate of YOLOX belongs to.
 Place cell_of(int candidate, ImageSize input) {
-  for (const int stride_px : {8, 16, 32}) {
+  for (const int stride_px : kGridStrides_px) {
     const int columns = input.width_px / stride_px, cells = columns * (input.height_px / stride_px);
     if (candidate < cells) return {candidate % columns, candidate / columns, stride_px};
     candidate -= cells;

@@ -29,7 +29,7 @@ class QuietOpencv {
                                remedy_for_opencv(model));
 }
 
-/// Of several outputs, the one that lists boxes: OpenCV does not keep their order.
+/// The name of the output that lists boxes where there are several: OpenCV does not keep their order.
 cv::String output_of_boxes(cv::dnn::Net& net) {
   const std::vector<cv::String> names = net.getUnconnectedOutLayersNames();
   std::vector<cv::Mat> outputs;

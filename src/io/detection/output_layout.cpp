@@ -151,7 +151,7 @@ const char* shape_of(OutputLayout layout) {
 
 std::int64_t grid_cells(ImageSize input) {
   std::int64_t cells = 0;
-  for (const int stride_px : {8, 16, 32})
+  for (const int stride_px : kGridStrides_px)
     cells += static_cast<std::int64_t>(input.width_px / stride_px) * (input.height_px / stride_px);
   return cells;
 }

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "io/logs/little_endian.hpp"
+#include "io/logs/plain_numbers.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -14,77 +15,54 @@ constexpr std::size_t kHeadSize = 3;  // two bytes that mark a record, and its t
 constexpr std::uint8_t kFmtType = 128;
 constexpr std::size_t kFmtSize = kHeadSize + 1 + 1 + 4 + 16 + 64;
 
+/// The plain number that a type of ArduPilot's is stored as, and what it is divided by; the type itself where
+/// it is plain.
+struct Storage {
+  char plain;
+  double divisor;
+};
+
+Storage storage_of(char type) {
+  switch (type) {
+    case 'M':  // flight mode
+      return {'B', 1.0};
+    case 'c':
+      return {'h', 1e2};
+    case 'C':
+      return {'H', 1e2};
+    case 'e':
+      return {'i', 1e2};
+    case 'E':
+      return {'I', 1e2};
+    case 'L':
+      return {'i', 1e7};
+    default:
+      return {type, 1.0};
+  }
+}
+
 /// 0 for an unknown type, which makes the whole format unusable.
 std::size_t size_of(char type) {
   switch (type) {
-    case 'b':
-    case 'B':
-    case 'M':
-      return 1;
-    case 'h':
-    case 'H':
-    case 'c':
-    case 'C':
-    case 'g':
+    case 'g':  // half precision
       return 2;
-    case 'i':
-    case 'I':
-    case 'f':
     case 'n':
-    case 'e':
-    case 'E':
-    case 'L':
       return 4;
-    case 'd':
-    case 'q':
-    case 'Q':
-      return 8;
     case 'N':
       return 16;
     case 'Z':
     case 'a':
       return 64;
     default:
-      return 0;
+      return plain_size(storage_of(type).plain);
   }
 }
 
 std::optional<double> number_at(char type, const char* bytes) {
-  switch (type) {
-    case 'b':
-      return read_number<std::int8_t>(bytes);
-    case 'B':
-    case 'M':
-      return read_number<std::uint8_t>(bytes);
-    case 'h':
-      return read_number<std::int16_t>(bytes);
-    case 'H':
-      return read_number<std::uint16_t>(bytes);
-    case 'i':
-      return read_number<std::int32_t>(bytes);
-    case 'I':
-      return read_number<std::uint32_t>(bytes);
-    case 'q':
-      return static_cast<double>(read_number<std::int64_t>(bytes));
-    case 'Q':
-      return static_cast<double>(read_number<std::uint64_t>(bytes));
-    case 'f':
-      return read_number<float>(bytes);
-    case 'd':
-      return read_number<double>(bytes);
-    case 'c':
-      return read_number<std::int16_t>(bytes) / 1e2;
-    case 'C':
-      return read_number<std::uint16_t>(bytes) / 1e2;
-    case 'e':
-      return read_number<std::int32_t>(bytes) / 1e2;
-    case 'E':
-      return read_number<std::uint32_t>(bytes) / 1e2;
-    case 'L':
-      return read_number<std::int32_t>(bytes) / 1e7;
-    default:
-      return std::nullopt;
-  }
+  const auto [plain, divisor] = storage_of(type);
+  const auto number = plain_number(plain, bytes);
+  if (!number) return std::nullopt;
+  return *number / divisor;
 }
 
 /// Text of a fixed size that zeros fill up.

@@ -12,7 +12,8 @@
 // What the readers of logs share.
 namespace geoloc::io {
 
-/// Of each kind; 100 Hz for eleven hours. More is no flight, and would take the computer's memory.
+/// The most samples of a kind: 100 Hz for eleven hours. More is no flight, and would take the computer's
+/// memory.
 constexpr std::size_t kMostSamples = 4'000'000;
 
 constexpr double kVideoStartCommand = 2500.0;  // MAV_CMD_VIDEO_START_CAPTURE

@@ -2,7 +2,7 @@
 #include <array>
 #include <charconv>
 
-#include "io/logs/little_endian.hpp"
+#include "io/logs/plain_numbers.hpp"
 #include "io/logs/ulog.hpp"
 
 namespace geoloc::io {
@@ -18,21 +18,20 @@ constexpr std::size_t kMostFields = 65'536;
 struct PlainType {
   std::string_view name;
   char type;
-  std::size_t size;
 };
 
-constexpr std::array<PlainType, 12> kPlainTypes{{{"int8_t", 'b', 1},
-                                                 {"uint8_t", 'B', 1},
-                                                 {"bool", 'B', 1},
-                                                 {"char", 'B', 1},
-                                                 {"int16_t", 'h', 2},
-                                                 {"uint16_t", 'H', 2},
-                                                 {"int32_t", 'i', 4},
-                                                 {"uint32_t", 'I', 4},
-                                                 {"int64_t", 'q', 8},
-                                                 {"uint64_t", 'Q', 8},
-                                                 {"float", 'f', 4},
-                                                 {"double", 'd', 8}}};
+constexpr std::array<PlainType, 12> kPlainTypes{{{"int8_t", 'b'},
+                                                 {"uint8_t", 'B'},
+                                                 {"bool", 'B'},
+                                                 {"char", 'B'},
+                                                 {"int16_t", 'h'},
+                                                 {"uint16_t", 'H'},
+                                                 {"int32_t", 'i'},
+                                                 {"uint32_t", 'I'},
+                                                 {"int64_t", 'q'},
+                                                 {"uint64_t", 'Q'},
+                                                 {"float", 'f'},
+                                                 {"double", 'd'}}};
 
 const PlainType* plain_type(std::string_view name) {
   for (const PlainType& type : kPlainTypes) {
@@ -100,7 +99,7 @@ class LayoutBuilder {
         continue;
       }
       layout_.fields[std::move(name)] = {size_, plain->type};
-      size_ += plain->size;
+      size_ += plain_size(plain->type);
       if (size_ > kLargestMessage) return false;
     }
     return true;
@@ -111,13 +110,6 @@ class LayoutBuilder {
   std::size_t size_ = 0;
   std::size_t visited_ = 0;
 };
-
-std::size_t plain_size(char type) {
-  for (const PlainType& plain : kPlainTypes) {
-    if (plain.type == type) return plain.size;
-  }
-  return 0;
-}
 
 }  // namespace
 
@@ -132,29 +124,7 @@ std::optional<double> UlogSample::number(std::string_view field) const {
   if (found == layout_.fields.end()) return std::nullopt;
   const auto [offset, type] = found->second;
   if (offset + plain_size(type) > bytes_.size()) return std::nullopt;
-  const char* const bytes = bytes_.data() + offset;
-  switch (type) {
-    case 'b':
-      return read_number<std::int8_t>(bytes);
-    case 'B':
-      return read_number<std::uint8_t>(bytes);
-    case 'h':
-      return read_number<std::int16_t>(bytes);
-    case 'H':
-      return read_number<std::uint16_t>(bytes);
-    case 'i':
-      return read_number<std::int32_t>(bytes);
-    case 'I':
-      return read_number<std::uint32_t>(bytes);
-    case 'q':
-      return static_cast<double>(read_number<std::int64_t>(bytes));
-    case 'Q':
-      return static_cast<double>(read_number<std::uint64_t>(bytes));
-    case 'f':
-      return read_number<float>(bytes);
-    default:
-      return read_number<double>(bytes);
-  }
+  return plain_number(type, bytes_.data() + offset);
 }
 
 }  // namespace geoloc::io

@@ -12,15 +12,10 @@
 #include <memory>
 #include <stdexcept>
 
-#include "io/stills/quiet_gdal.hpp"
+#include "io/gdal_dataset.hpp"
 
 namespace geoloc::io {
 namespace {
-
-struct Closer {
-  void operator()(void* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<void, Closer>;
 
 /// Bytes as a file of GDAL's that lies in memory: no other file lies beside it, so that none is read.
 class MemoryFile {
@@ -41,10 +36,10 @@ class MemoryFile {
   std::string name_ = "/vsimem/geoloc_still_" + std::to_string(reinterpret_cast<std::uintptr_t>(this));
 };
 
-Dataset open(const MemoryFile& file) {
+GdalDataset open(const MemoryFile& file) {
   constexpr std::array<const char*, 2> kFormats{"JPEG", nullptr};
   GDALRegister_JPEG();  // registered twice it is registered once
-  return Dataset(
+  return GdalDataset(
       GDALOpenEx(file.name(), GDAL_OF_RASTER | GDAL_OF_READONLY, kFormats.data(), nullptr, nullptr));
 }
 
@@ -92,9 +87,9 @@ std::optional<std::string> PictureTags::xmp_text(const std::string& name) const 
 PictureTags parse_picture_tags(std::string_view jpeg) {
   constexpr std::string_view kStart{"\xFF\xD8\xFF"};
   if (jpeg.substr(0, kStart.size()) != kStart) throw std::runtime_error("is no JPEG");
-  const QuietGdal quiet;
+  const GdalErrors quiet;
   const MemoryFile file(jpeg);
-  const Dataset dataset = open(file);
+  const GdalDataset dataset = open(file);
   if (!dataset) throw std::runtime_error("is no JPEG that can be read");
   PictureTags tags;
   tags.width_px = GDALGetRasterXSize(dataset.get());

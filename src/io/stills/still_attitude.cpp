@@ -45,16 +45,6 @@ std::optional<EulerAngles> angles_of(const PictureTags& tags, const AngleNames& 
   return EulerAngles{angles_rad[0], angles_rad[1], wrap_to_pi(angles_rad[2])};
 }
 
-/// The camera's angles in the vehicle. Near straight down, roll and yaw are one: euler_angles() makes it yaw.
-CameraMount mount_in(const EulerAngles& vehicle, const EulerAngles& camera) {
-  const EulerAngles turn = euler_angles(ned_from_body(vehicle).conjugate() * ned_from_body(camera));
-  CameraMount mount;
-  mount.roll_deg = turn.roll_rad * kDegPerRad;
-  mount.pitch_deg = turn.pitch_rad * kDegPerRad;
-  mount.yaw_deg = turn.yaw_rad * kDegPerRad;
-  return mount;
-}
-
 /// A vehicle whose attitude is not told is taken to be level below its camera's heading: only the camera's
 /// own angles count.
 std::optional<StillAttitude> by_camera(const PictureTags& tags, const Maker& maker) {
@@ -64,7 +54,8 @@ std::optional<StillAttitude> by_camera(const PictureTags& tags, const Maker& mak
   StillAttitude attitude;
   attitude.source = AttitudeSource::kCamera;
   attitude.vehicle = vehicle.value_or(EulerAngles{0.0, 0.0, camera->yaw_rad});
-  attitude.mount = mount_in(attitude.vehicle, *camera);
+  attitude.mount =
+      CameraMount{}.turned_to(ned_from_body(attitude.vehicle).conjugate() * ned_from_body(*camera));
   if (vehicle) attitude.yaw_difference_deg = wrap_to_pi(camera->yaw_rad - vehicle->yaw_rad) * kDegPerRad;
   return attitude;
 }

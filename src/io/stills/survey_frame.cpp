@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "io/stills/quiet_gdal.hpp"
+#include "io/gdal_dataset.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -55,14 +55,14 @@ struct SurveyFrame::Transform {
 };
 
 SurveyFrame::SurveyFrame(const std::string& line) {
-  const QuietGdal quiet;
+  const GdalErrors quiet;
   transform_ = std::make_unique<Transform>(epsg_of_utm(line));
 }
 
 SurveyFrame::~SurveyFrame() = default;
 
 std::optional<Geodetic> SurveyFrame::to_geodetic(double x, double y) const {
-  const QuietGdal quiet;
+  const GdalErrors quiet;
   if (OCTTransform(transform_->handle, 1, &x, &y, nullptr) == 0) return std::nullopt;
   const Geodetic place{y, x};
   if (!is_valid(place) || std::abs(place.longitude_deg) > 180.0) return std::nullopt;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "geoloc/io/stills/picture_tags.hpp"
-#include "io/stills/quiet_gdal.hpp"
+#include "io/gdal_dataset.hpp"
 
 // A property is an attribute or an element of an rdf:Description, and either may be found beside the other
 // (ISO 16684-1, 7.4).
@@ -78,7 +78,7 @@ std::map<std::string, std::string> parse_xmp(const std::string& packet) {
   if (packet.size() > kLargestPacket)
     throw std::runtime_error("holds " + std::to_string(packet.size()) +
                              " bytes of XMP, more than any camera's");
-  const QuietGdal quiet;
+  const GdalErrors quiet;
   const std::unique_ptr<CPLXMLNode, Destroyer> root(CPLParseXMLString(packet.c_str()));
   if (!root) throw std::runtime_error("holds XMP that is no XML");
   Properties properties;

@@ -19,7 +19,7 @@ namespace {
 constexpr Duration kMotionStep = std::chrono::milliseconds{10};
 constexpr int kMotionStepsPerMessage = 10;
 
-/// Of the vehicle, north being that of the local frame.
+/// The true angles of the vehicle, north being that of the local frame.
 EulerAngles true_angles(const Flight& flight, VehicleTime time) {
   return euler_angles(enu_from_ned() * flight.truth.pose(time).value().rotation);
 }

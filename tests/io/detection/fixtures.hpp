@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <opencv2/core/types.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,23 @@ inline std::vector<Backend> backends() {
 
 inline std::string backend_name(const ::testing::TestParamInfo<Backend>& instance) {
   return instance.param == Backend::kOpencv ? "opencv" : "openvino";
+}
+
+inline DetectionConfig with(Backend backend, OutputLayout layout = OutputLayout::kAuto) {
+  DetectionConfig config;
+  config.backend = backend;
+  config.layout = layout;
+  return config;
+}
+
+/// Why no detector can be made of them; "none" where one can.
+inline std::string fault_of(const DetectorFiles& files, const DetectionConfig& config) {
+  try {
+    const YoloDetector detector{files, config};
+    return "none";
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
 }
 
 inline const cv::Scalar kRed{0, 0, 255};

@@ -18,13 +18,6 @@
 namespace geoloc::io {
 namespace {
 
-DetectionConfig with(Backend backend, OutputLayout layout = OutputLayout::kAuto) {
-  DetectionConfig config;
-  config.backend = backend;
-  config.layout = layout;
-  return config;
-}
-
 /// 192 x 128 px, twice the networks' input: a red cell of 16 px in the given column and row.
 cv::Mat picture_with_cell(int column, int row) {
   cv::Mat picture{128, 192, CV_8UC3, cv::Scalar::all(114)};
@@ -40,15 +33,6 @@ void expect_box(const std::vector<Detection>& found, double width_px, double hei
   EXPECT_NEAR(found[0].box.height, height_px, 1e-3);
   EXPECT_NEAR(found[0].confidence, confidence, 0.02);
   EXPECT_EQ(found[0].class_id, 0);
-}
-
-std::string fault_of(const DetectorFiles& files, const DetectionConfig& config) {
-  try {
-    const YoloDetector detector{files, config};
-    return "none";
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
 }
 
 class EachBackendsLayouts : public ::testing::TestWithParam<Backend> {

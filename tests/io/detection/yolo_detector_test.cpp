@@ -18,12 +18,6 @@ namespace {
 
 const cv::Scalar kBlue{255, 0, 0};
 
-DetectionConfig with(Backend backend) {
-  DetectionConfig config;
-  config.backend = backend;
-  return config;
-}
-
 /// 192 x 64 px: in the network's 96 x 64 px at half the size, between bars of 16 px. Its cells are 16 px wide
 /// and high.
 cv::Mat picture_with_cell(int column, int row, const cv::Scalar& colour) {
@@ -41,15 +35,6 @@ void expect_cell(const std::vector<Detection>& detections, int column, int row, 
   EXPECT_NEAR(box.height, 12, 1e-3);
   EXPECT_NEAR(detections[0].confidence, 1.0, 0.15);  // the cell's edge mixes with its neighbours
   EXPECT_EQ(detections[0].class_id, class_id);
-}
-
-std::string fault_of(const DetectorFiles& files, const DetectionConfig& config) {
-  try {
-    const YoloDetector detector{files, config};
-    return "none";
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
 }
 
 /// Tests that run with each back end that was built in.

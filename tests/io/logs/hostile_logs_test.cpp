@@ -9,6 +9,8 @@
 #include <random>
 #include <string>
 
+#include "support/spoilt_bytes.hpp"
+
 namespace geoloc::io {
 namespace {
 
@@ -19,32 +21,13 @@ std::string seed(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Overwrites, removes and repeats pieces.
-std::string spoilt(std::string bytes, std::mt19937& random) {
-  for (int left = 1 + static_cast<int>(random() % 6); left > 0 && !bytes.empty(); --left) {
-    const std::size_t at = random() % bytes.size();
-    const std::size_t length = 1 + random() % 40;
-    switch (random() % 3) {
-      case 0:
-        bytes[at] = static_cast<char>(random());
-        break;
-      case 1:
-        bytes.erase(at, length);
-        break;
-      default:
-        bytes.insert(random() % bytes.size(), bytes.substr(at, length));
-    }
-  }
-  return bytes;
-}
-
 void spoil_and_read(const std::string& name, Reader read) {
   const std::string good = seed(name);
   ASSERT_FALSE(good.empty()) << name;
   std::mt19937 random(1);
   read("");
   read(good);
-  for (int i = 0; i < 2000; ++i) read(spoilt(good, random));
+  for (int i = 0; i < 2000; ++i) read(testing::spoilt(good, random));
   for (std::size_t size = 0; size < good.size(); ++size) read(std::string_view(good).substr(0, size));
 }
 

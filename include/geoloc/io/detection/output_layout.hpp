@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -65,7 +66,10 @@ bool needs_no_suppression(OutputLayout layout);
 /// "[1, 4 + classes, candidates]": for messages.
 const char* shape_of(OutputLayout layout);
 
-/// The cells of the grids of strides 8, 16 and 32 px, that YOLO networks predict boxes in.
+/// Between the cells of the grids that YOLO networks predict boxes in.
+inline constexpr std::array kGridStrides_px{8, 16, 32};
+
+/// The cells of all these grids.
 std::int64_t grid_cells(ImageSize input);
 
 }  // namespace geoloc::io

@@ -44,13 +44,8 @@ struct LoggedFix {
   std::optional<double> sigma_height_m;
 };
 
-enum class GimbalYaw {
-  kFromNorth,  ///< counts from true north
-  kFromNose    ///< counts from the vehicle's heading
-};
-
 /// How a gimbal looked. Roll and pitch are against the horizon; 0, 0 looks ahead, level.
-struct GimbalSample {
+struct LoggedGimbal {
   VehicleTime time;
   EulerAngles angles;
   GimbalYaw yaw = GimbalYaw::kFromNorth;
@@ -77,7 +72,7 @@ struct FlightLog {
   std::vector<LoggedPosition> positions;
   std::vector<LoggedVelocity> velocities;
   std::vector<LoggedFix> fixes;
-  std::vector<GimbalSample> gimbal;
+  std::vector<LoggedGimbal> gimbal;
   std::vector<CameraEvent> camera_events;
   std::vector<UtcPair> utc;
   std::optional<double> home_height_msl_m;  ///< of the first home that is told

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "geoloc/state/samples.hpp"
+
+namespace geoloc::apps {
+
+/// From one position to another, in east, north, up [m], near enough to each other for a plane.
+Eigen::Vector3d way(const PositionSample& from, const PositionSample& to);
+
+}  // namespace geoloc::apps
