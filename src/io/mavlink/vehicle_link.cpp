@@ -57,7 +57,7 @@ void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
 }  // namespace
 
 VehicleLink::VehicleLink(const MavlinkConfig& config, bool has_gimbal)
-    : config_(config), has_gimbal_(has_gimbal), choice_(config.system_id), gimbal_choice_(config.gimbal) {
+    : config_(config), has_gimbal_(has_gimbal), choice_(config.system_id), gimbal_(config.gimbal) {
   throw_if_any(config.problems());
 }
 
@@ -106,8 +106,7 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   last_position_.reset();
   last_refusal_.reset();
   last_stamped_range_.reset();
-  gimbal_choice_.restart();
-  last_gimbal_.reset();
+  gimbal_.restart();
   last_heard_ = arrival.at;
   fast_timesyncs_ = 0;
   requests_.want(wanted_streams(config_, choice_.is_ardupilot(), has_gimbal_), arrival.at);
@@ -203,52 +202,9 @@ void VehicleLink::handle(const RangeMessage& message, const Arrival& arrival) {
   arrival.sink.on_range({*time, message.distance_m});
 }
 
-/// Its stamps teach nothing of the vehicle's clock: what is made of the other messages must not depend on
-/// whether there is a gimbal.
 void VehicleLink::take_gimbal(std::uint8_t component, const GimbalMessage& message, const Arrival& arrival) {
-  GimbalChoice choice = gimbal_choice_;
-  if (!choice.takes(component, message, arrival.at)) {
-    ++counts_.other_gimbals;
-    return;
-  }
-  const auto time = gimbal_time(component, message, arrival.at);
-  if (!time) {
-    ++counts_.suspect_stamps;
-    return;
-  }
-  gimbal_choice_ = choice;
-  ++counts_.gimbals;
-  last_gimbal_ = arrival.at;
-  gimbal_meter_.add(arrival.at);
-  gimbal_failure_flags_ = message.failure_flags;
-  GimbalSample sample = message.sample;
-  sample.time = *time;
-  arrival.sink.on_gimbal(sample);
-}
-
-/// A component of its own has a boot clock of its own, which is known by the arrival of its messages. nullopt
-/// where the time cannot be.
-std::optional<VehicleTime> VehicleLink::gimbal_time(std::uint8_t component, const GimbalMessage& message,
-                                                    HostTime received_at) {
-  if (!message.has_time) return clock_.to_vehicle(received_at);
-  const VehicleTime stamp = message.sample.time;
-  if (component == kAutopilotComponent) {
-    if (!boot_clock_.is_near_newest(stamp) || clock_.is_early(stamp, received_at)) return std::nullopt;
-    return stamp;
-  }
-  switch (gimbal_boot_clock_.observe(stamp)) {
-    case BootClockMonitor::Verdict::kSuspect:
-      return std::nullopt;
-    case BootClockMonitor::Verdict::kRebooted:
-      gimbal_clock_.clear();
-      break;
-    case BootClockMonitor::Verdict::kAdvanced:
-      break;
-  }
-  gimbal_clock_.add(stamp, received_at);
-  const auto offset = gimbal_clock_.offset();
-  if (!offset) return std::nullopt;
-  return clock_.to_vehicle(HostTime{stamp.time_since_epoch() - *offset});
+  const auto sample = gimbal_.take(component, message, arrival.at, {clock_, boot_clock_}, counts_);
+  if (sample) arrival.sink.on_gimbal(*sample);
 }
 
 void VehicleLink::handle(const Timesync& message, const Arrival& arrival) {
@@ -350,11 +306,7 @@ LinkStatus VehicleLink::status(HostTime now) const {
   status.position_rate_hz = position_meter_.rate_hz(now);
   status.since_attitude = since(last_attitude_, now);
   status.since_position = since(last_position_, now);
-  status.since_gimbal = since(last_gimbal_, now);
-  status.gimbal_rate_hz = gimbal_meter_.rate_hz(now);
-  status.gimbal = gimbal_choice_.device();
-  status.gimbal_source = gimbal_choice_.source();
-  status.gimbal_failure_flags = gimbal_failure_flags_;
+  gimbal_.report(now, status);
   status.clock_source = clock_.source();
   status.clock_error_bound = clock_.error_bound();
   if (status.vehicle) status.lost_frames = parser_.sequences().lost(*status.vehicle);

@@ -12,7 +12,7 @@
 #include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/commands.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
-#include "geoloc/io/mavlink/gimbal_choice.hpp"
+#include "geoloc/io/mavlink/gimbal_receiver.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
@@ -52,7 +52,7 @@ class VehicleLink {
   const VehicleClockMap& clock() const { return clock_; }
   LinkStatus status(HostTime now) const;
   /// GIMBAL_DEVICE_ERROR_FLAGS of the camera's gimbal, as it told last.
-  std::uint32_t gimbal_failures() const { return gimbal_failure_flags_; }
+  std::uint32_t gimbal_failures() const { return gimbal_.failure_flags(); }
 
  private:
   /// Where and when a message came in.
@@ -83,8 +83,6 @@ class VehicleLink {
   void handle(const CommandAck& message, const Arrival& arrival);
 
   void take_gimbal(std::uint8_t component, const GimbalMessage& message, const Arrival& arrival);
-  std::optional<VehicleTime> gimbal_time(std::uint8_t component, const GimbalMessage& message,
-                                         HostTime received_at);
 
   void ask_anew(HostTime now);
   void send_timesync(HostTime now, const Send& send);
@@ -109,12 +107,7 @@ class VehicleLink {
   std::optional<HostTime> last_position_;
   std::optional<PositionRefusal> last_refusal_;  // of a position, after the last one that was delivered
   std::optional<HostTime> last_stamped_range_;
-  GimbalChoice gimbal_choice_;
-  ArrivalOffset gimbal_clock_;  // of a gimbal that is a component of its own, against the host's
-  BootClockMonitor gimbal_boot_clock_;
-  std::optional<HostTime> last_gimbal_;
-  RateMeter gimbal_meter_;
-  std::uint32_t gimbal_failure_flags_ = 0;
+  GimbalReceiver gimbal_;
   bool has_delivered_ = false;  // a sample of the present vehicle
   HostTime last_heard_{};
   bool is_v2_ = false;
