@@ -50,15 +50,18 @@ install_packages() {
     { tail -n 20 "$ROOT/build/apt.log" >&2; echo "apt-get failed; all of it is in build/apt.log" >&2; return 1; }
 }
 
+# count_in_log START: the lines of apt's log that start so.
+count_in_log() { grep -c "^$1" "$ROOT/build/apt.log" || true; }  # grep fails where it counts none
+
 # watch_installation PROCESS COUNT: shows how many packages are there, until the process ends.
 watch_installation() {
-  local log=$ROOT/build/apt.log every_s=10 end=$'\n' seconds=0 shown
+  local every_s=10 end=$'\n' seconds=0
   [ ! -t 2 ] || { every_s=1 end=$'\r'; }
   while sleep 1 && kill -0 "$1" 2>/dev/null; do
     seconds=$((seconds + 1))
     [ $((seconds % every_s)) -eq 0 ] || continue
-    shown="fetched $(grep -c '^Get:' "$log"), unpacked $(grep -c '^Unpacking ' "$log"), set up $(grep -c '^Setting up ' "$log") of $2"
-    printf '%s packages%s' "$shown" "$end" >&2
+    printf 'fetched %s, unpacked %s, set up %s of %s packages%s' \
+      "$(count_in_log Get:)" "$(count_in_log 'Unpacking ')" "$(count_in_log 'Setting up ')" "$2" "$end" >&2
   done
   [ "$end" = $'\n' ] || echo >&2
 }
