@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
-import pty
 import subprocess
 import unittest
 
-from support import AppTest
+from support import AppTest, open_terminal
 
 PACKAGES = pathlib.Path(os.environ["GEOLOC_SOURCE_DIR"]) / "scripts/packages.sh"
 
@@ -32,7 +31,7 @@ class Installation(AppTest):
                            "sudo": '#!/bin/sh\nexec "$@"\n'}.items():
             (tools / name).write_text(text)
             (tools / name).chmod(0o755)
-        terminal, its_end = pty.openpty()
+        terminal, its_end = open_terminal()
         with subprocess.Popen(["bash", "-c", f"set -euo pipefail; source {PACKAGES}; install_packages one two; say installed"],
                               env={**os.environ, "ROOT": str(self.folder), "PATH": f"{tools}:{os.environ['PATH']}"},
                               stderr=its_end) as script:

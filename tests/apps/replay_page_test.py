@@ -2,7 +2,6 @@
 """The live page of a recording: readable, usable with gloves, and played as its reader wishes; its address for a telephone."""
 import json
 import os
-import pty
 import re
 import signal
 import subprocess
@@ -10,7 +9,7 @@ import time
 import unittest
 
 from browser import HOSTILE_NAME, SCREENS, BrowserTest, url_of
-from support import BIN, PATIENCE_S, AppTest, Live, run
+from support import BIN, PATIENCE_S, AppTest, Live, open_terminal, run
 
 try:
     import numpy
@@ -222,7 +221,7 @@ class Terminal:
     """A program whose messages go to a terminal; ends with the `with` block."""
 
     def __init__(self, program, *arguments):
-        self._screen, keyboard = pty.openpty()
+        self._screen, keyboard = open_terminal()
         self._process = subprocess.Popen([BIN / program, *map(str, arguments)], stdout=subprocess.DEVNULL, stderr=keyboard)
         os.close(keyboard)
         self.text = ""

@@ -4,6 +4,7 @@ import collections
 import json
 import os
 import pathlib
+import pty
 import re
 import signal
 import socket
@@ -32,6 +33,14 @@ def free_port(kind=socket.SOCK_DGRAM):
     with socket.socket(socket.AF_INET, kind) as probe:
         probe.bind(("127.0.0.1", 0))
         return probe.getsockname()[1]
+
+
+def open_terminal():
+    """The controlling and the other end of a new terminal. Skips the test where the system has none, as in a chroot without devpts."""
+    try:
+        return pty.openpty()
+    except OSError as fault:
+        raise unittest.SkipTest(f"there are no terminals here: {fault}") from fault
 
 
 class Live:

@@ -2,14 +2,13 @@
 """The live page that asks for a token: who has none sees nothing, and the token goes nowhere else."""
 import http.client
 import os
-import pty
 import re
 import stat
 import subprocess
 import unittest
 
 from browser import BrowserTest, OtherSite
-from support import BIN, PATIENCE_S, AppTest, Live, run
+from support import BIN, PATIENCE_S, AppTest, Live, open_terminal, run
 
 PATHS = "/", "/page.js", "/palette.css", "/events", "/frame", "/settings", "/objects/1", "/nowhere"
 
@@ -90,7 +89,7 @@ class PageToken(Guarded):
     def test_the_token_stays_over_restarts_and_is_shown_to_a_terminal_alone(self):
         self.file.write_text("a-token-of-my-own\n")
         self.file.chmod(0o600)
-        terminal, theirs = pty.openpty()
+        terminal, theirs = open_terminal()
         with os.fdopen(terminal, "rb", buffering=0) as screen:
             replay = subprocess.Popen([BIN / "geoloc_replay", self.recording, "--http", "0", "--http-token", self.file,
                                        "--out", self.folder / "objects.geojson"], stderr=theirs)

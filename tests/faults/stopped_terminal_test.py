@@ -6,6 +6,7 @@ import termios
 import unittest
 
 from flight_under_fault import FaultTest, wait_until
+from support import open_terminal
 
 MOST_TO_END_S = 30  # a second of patience with the terminal; the rest is for a loaded machine
 
@@ -37,7 +38,7 @@ class StoppedTerminal(FaultTest):
         self.assertTrue(self.features())
 
     def test_a_terminal_stopped_in_flight(self):
-        controller, terminal = os.openpty()
+        controller, terminal = open_terminal()
         self.addCleanup(os.close, controller)
         app = self.start(stderr=terminal)
         self.assertIn(b"listening", os.read(controller, 4096))
