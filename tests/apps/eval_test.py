@@ -6,7 +6,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
-from support import AppTest, run
+from support import PATIENCE_S, AppTest, run
 
 
 TOLERANCE = 1.15  # of what was measured
@@ -50,7 +50,7 @@ class JointMethod(AppTest):
     @classmethod
     def setUpClass(cls):
         with tempfile.TemporaryDirectory(prefix="geoloc-test-") as folder:
-            result = run("geoloc_eval", "--known-points", 2, "--report", folder)
+            result = run("geoloc_eval", "--known-points", 2, "--report", folder, timeout=2.5 * PATIENCE_S)
             assert result.status == 0, result.err
             cls.report = json.loads((pathlib.Path(folder) / "report.json").read_text())
 
