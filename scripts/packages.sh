@@ -66,6 +66,19 @@ watch_installation() {
   [ "$end" = $'\n' ] || echo >&2
 }
 
+# install_from_pypi VENV REQUIREMENTS [PIP-OPTION…]: an environment of Python with what that file lists, made anew where it has changed.
+install_from_pypi() {
+  local venv=$1 wanted=$2 log=$1.log
+  ! cmp -s "$wanted" "$venv/installed.txt" || return 0
+  say "Installing $wanted into $venv"
+  rm -rf "$venv"
+  mkdir -p "$(dirname "$venv")"
+  python3 -m venv "$venv"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check "${@:3}" -r "$wanted" >"$log" 2>&1 ||
+    { tail -n 20 "$log" >&2; echo "pip could not install $wanted, which needs PyPI; all of it is in $log" >&2; return 1; }
+  cp "$wanted" "$venv/installed.txt"
+}
+
 PROGRAMS_ONLY=(-DGEOLOC_BUILD_TESTS=OFF -DGEOLOC_BUILD_EXAMPLES=OFF -DGEOLOC_BUILD_BENCH=OFF)
 
 # configure PRESET [CMAKE-OPTION…]: the same compiler options for all scripts, so that none compiles again what another has.

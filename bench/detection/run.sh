@@ -20,18 +20,9 @@ source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 bash scripts/openvino.sh
 
-# with_packages VENV REQUIREMENTS
-with_packages() {
-  cmp -s "$2" "$1/installed.txt" && return
-  say "Installing $2 into $1"
-  rm -rf "$1"
-  python3 -m venv "$1"
-  "$1/bin/pip" install --quiet --disable-pip-version-check -r "$2"
-  cp "$2" "$1/installed.txt"
-}
-with_packages build/detection/venv bench/detection/requirements.txt
+install_from_pypi build/detection/venv bench/detection/requirements.txt
 if [ ! -f "$yolo/yolo11n_640.onnx" ]; then
-  with_packages build/detection/venv-yolo bench/detection/yolo_requirements.txt
+  install_from_pypi build/detection/venv-yolo bench/detection/yolo_requirements.txt
   mkdir -p "$yolo"
   build/detection/venv-yolo/bin/python bench/detection/export_yolo.py "$yolo"
 fi

@@ -24,17 +24,8 @@ say "Building"
 cmake --build build/release --target geoloc_sim geoloc_replay >build/peers/build.log 2>&1 ||
   fail build/peers/build.log "the build failed"
 
-venv=build/peers/venv wanted=bench/peers/requirements.txt
-if ! cmp -s "$wanted" "$venv/installed.txt"; then
-  say "Installing Stone Soup into $venv"
-  rm -rf "$venv"
-  python3 -m venv "$venv"
-  "$venv/bin/pip" install --quiet --disable-pip-version-check -r "$wanted" \
-    >build/peers/pip.log 2>&1 ||
-    fail build/peers/pip.log "pip could not install $wanted, which needs PyPI and Python 3.11 or newer"
-  cp "$wanted" "$venv/installed.txt"
-fi
+install_from_pypi build/peers/venv bench/peers/requirements.txt  # Stone Soup, which needs Python 3.11 or newer
 
 say "Running"
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1  # single-threaded runs, so that CPU time is comparable
-exec nice -n 5 "$venv/bin/python" bench/peers/peers.py "$@"
+exec nice -n 5 build/peers/venv/bin/python bench/peers/peers.py "$@"

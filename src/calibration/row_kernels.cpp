@@ -1,25 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/row_kernels.hpp"
 
-// Not FMA, which rounds once where two roundings are due.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define GEOLOC_WIDE_REGISTERS __attribute__((target_clones("avx2", "default")))
-#else
-#define GEOLOC_WIDE_REGISTERS
-#endif
+#include "geometry/wide_registers.hpp"
 
 namespace geoloc {
 namespace {
-
-/// As many side by side as the widest registers hold; the compiler splits them where they are narrower.
-constexpr std::size_t kLanes = 4;
-using Lanes =
-    double __attribute__((vector_size(kLanes * sizeof(double)), aligned(alignof(double)), may_alias));
-
-inline const Lanes& lanes(const double* from) {
-  return *reinterpret_cast<const Lanes*>(from);
-}
 
 inline double sum_of(const Lanes& lanes) {
   return (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]);

@@ -3,93 +3,90 @@
 
 #include <algorithm>
 
+#include "tracking/dense_assignment.hpp"
+#include "tracking/gated_components.hpp"
+
 namespace geoloc {
 namespace {
 
+using Costs = Eigen::Ref<const Eigen::MatrixXd>;
+using Numbers = GatedComponents::Span;
+
 /// A pair that is worse than leaving both alone costs exactly as much: it can be chosen only for nothing, and
 /// is then dropped.
-double capped_cost(const Eigen::Ref<const Eigen::MatrixXd>& costs, bool transposed, double max_cost, int row,
-                   int column) {
-  const double cost = transposed ? costs(column, row) : costs(row, column);
+double capped(double cost, double max_cost) {
   return cost < max_cost ? cost : max_cost;  // NaN gives max_cost
+}
+
+/// Each column of the costs becomes a row: both lie in memory one number after the other.
+void fill_transposed(DenseAssignment& problem, const Costs& costs, double max_cost, Numbers rows,
+                     Numbers columns) {
+  problem.begin(columns.size(), rows.size());
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const double* const from = costs.col(columns[j]).data();
+    double* const to = problem.row(j);
+    for (std::size_t i = 0; i < rows.size(); ++i) to[i] = capped(from[rows[i]], max_cost);
+  }
+}
+
+void fill(DenseAssignment& problem, const Costs& costs, double max_cost, Numbers rows, Numbers columns) {
+  problem.begin(rows.size(), columns.size());
+  constexpr std::size_t kTogether = 8;  // columns, so that both matrices are walked in long stretches
+  for (std::size_t first = 0; first < columns.size(); first += kTogether) {
+    const std::size_t last = std::min(first + kTogether, columns.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = first; j < last; ++j)
+        problem.row(i)[j] = capped(costs(rows[i], columns[j]), max_cost);
+  }
 }
 
 }  // namespace
 
+struct AssignmentSolver::Workspace {
+  GatedComponents components;
+  DenseAssignment problem;
+  std::vector<std::size_t> column_of_row;
+
+  void solve(const Costs& costs, double max_cost, Numbers rows, Numbers columns);
+  void pair(const Costs& costs, double max_cost, int row, int column);
+};
+
+AssignmentSolver::AssignmentSolver() : workspace_(std::make_unique<Workspace>()) {}
+AssignmentSolver::~AssignmentSolver() = default;
+AssignmentSolver::AssignmentSolver(AssignmentSolver&&) noexcept = default;
+AssignmentSolver& AssignmentSolver::operator=(AssignmentSolver&&) noexcept = default;
+
 void AssignmentSolver::reserve(int rows, int columns) {
-  const int longer = std::max(rows, columns) + 1;
-  for (auto* values : {&row_potential_, &column_potential_, &shortest_}) values->reserve(longer);
-  for (auto* values : {&row_of_column_, &previous_column_}) values->reserve(longer);
-  column_of_row_.reserve(longer);
-  visited_.reserve(longer);
+  workspace_->components.reserve(rows, columns);
+  workspace_->problem.reserve(std::min(rows, columns), std::max(rows, columns));
+  workspace_->column_of_row.reserve(rows);
 }
 
-void AssignmentSolver::augment(const Eigen::Ref<const Eigen::MatrixXd>& costs, bool transposed,
-                               double max_cost, int row, int columns) {
-  std::fill(shortest_.begin(), shortest_.end(), std::numeric_limits<double>::infinity());
-  std::fill(visited_.begin(), visited_.end(), char{0});
-  row_of_column_[0] = row;
+const std::vector<std::size_t>& AssignmentSolver::solve(const Costs& costs, double max_cost) {
+  GatedComponents& components = workspace_->components;
+  components.find(costs, max_cost);
+  workspace_->column_of_row.assign(costs.rows(), kUnassigned);
+  for (std::size_t k = 0; k < components.size(); ++k)
+    workspace_->solve(costs, max_cost, components.rows(k), components.columns(k));
+  return workspace_->column_of_row;
+}
 
-  int column = 0;
-  do {  // Dijkstra over reduced costs, until a free column is reached
-    visited_[column] = 1;
-    const int from_row = row_of_column_[column];
-    double step = std::numeric_limits<double>::infinity();
-    int next = 0;
-    for (int j = 1; j <= columns; ++j) {
-      if (visited_[j] != 0) continue;
-      const double reduced = capped_cost(costs, transposed, max_cost, from_row - 1, j - 1) -
-                             row_potential_[from_row] - column_potential_[j];
-      if (reduced < shortest_[j]) {
-        shortest_[j] = reduced;
-        previous_column_[j] = column;
-      }
-      if (shortest_[j] < step) {
-        step = shortest_[j];
-        next = j;
-      }
+void AssignmentSolver::Workspace::solve(const Costs& costs, double max_cost, Numbers rows, Numbers columns) {
+  if (rows.size() == 1 && columns.size() == 1) return pair(costs, max_cost, rows[0], columns[0]);
+  const bool is_transposed = columns.size() <= rows.size();
+  (is_transposed ? fill_transposed : fill)(problem, costs, max_cost, rows, columns);
+  const std::vector<int>& solution = problem.solve();
+  for (std::size_t k = 0; k < solution.size(); ++k) {
+    if (is_transposed) {
+      pair(costs, max_cost, rows[solution[k]], columns[k]);
+    } else {
+      pair(costs, max_cost, rows[k], columns[solution[k]]);
     }
-    for (int j = 0; j <= columns; ++j) {
-      if (visited_[j] != 0) {
-        row_potential_[row_of_column_[j]] += step;
-        column_potential_[j] -= step;
-      } else {
-        shortest_[j] -= step;
-      }
-    }
-    column = next;
-  } while (row_of_column_[column] != 0);
-
-  while (column != 0) {  // turn the path round
-    const int previous = previous_column_[column];
-    row_of_column_[column] = row_of_column_[previous];
-    column = previous;
   }
 }
 
-const std::vector<std::size_t>& AssignmentSolver::solve(const Eigen::Ref<const Eigen::MatrixXd>& costs,
-                                                        double max_cost) {
-  const bool transposed = costs.rows() > costs.cols();
-  const int rows = static_cast<int>(transposed ? costs.cols() : costs.rows());
-  const int columns = static_cast<int>(transposed ? costs.rows() : costs.cols());
-  const int column_slots = columns + 1;  // the first stands for the row being placed
-  row_potential_.assign(rows + 1, 0.0);
-  column_potential_.assign(column_slots, 0.0);
-  shortest_.assign(column_slots, 0.0);
-  row_of_column_.assign(column_slots, 0);
-  previous_column_.assign(column_slots, 0);
-  visited_.assign(column_slots, 0);
-  for (int row = 1; row <= rows; ++row) augment(costs, transposed, max_cost, row, columns);
-
-  column_of_row_.assign(costs.rows(), kUnassigned);
-  for (int j = 1; j <= columns; ++j) {
-    const int i = row_of_column_[j];
-    if (i == 0) continue;
-    const int row = transposed ? j - 1 : i - 1;
-    const int column = transposed ? i - 1 : j - 1;
-    if (costs(row, column) < max_cost) column_of_row_[row] = column;
-  }
-  return column_of_row_;
+void AssignmentSolver::Workspace::pair(const Costs& costs, double max_cost, int row, int column) {
+  if (costs(row, column) < max_cost) column_of_row[row] = column;
 }
 
 }  // namespace geoloc

@@ -5,6 +5,11 @@
 
 namespace geoloc {
 
+double CalibratedViewer::image_scale() const {
+  constexpr double kUsualWidth_px = 1280.0;
+  return projector.camera().intrinsics().width_px / kUsualWidth_px;
+}
+
 std::optional<FrameView> CalibratedViewer::at(FrameStamp stamp, double latency_s) const {
   const auto found = viewer.nominal_view(stamp, latency_s);
   if (!found) return std::nullopt;

@@ -18,6 +18,10 @@ struct CalibratedViewer {
   bool calibration_is_void;  ///< learnt with the latency that is in question
   double terrain_m;          ///< of the ground under the present frame's camera
 
+  /// Limits in pixels are those of images of the usual width, 1280 px; of this camera's they are so much
+  /// wider.
+  double image_scale() const;
+
   std::optional<FrameView> at(FrameStamp stamp, double latency_s) const;
 };
 

@@ -11,7 +11,7 @@ namespace {
 /// Boxes of a frame that are compared.
 constexpr std::size_t kMostBoxes = 8;
 /// A box farther from where it should be is another object's, or missed.
-constexpr double kMostApart_px = 15.0, kUsualWidth_px = 1280.0;
+constexpr double kMostApart_px = 15.0;
 /// Latencies that are tried.
 constexpr int kLatencies = 34, kFineSteps = 5;
 constexpr double kStep_s = 0.1;
@@ -67,8 +67,7 @@ LatencyWatch::Distance LatencyWatch::distance_of_pair(std::size_t age, double la
   const auto view_before = viewer.at(before.stamp, latency_s);
   const auto view_now = viewer.at(now.stamp, latency_s);
   if (!view_before || !view_now) return {};
-  // Pixels of a larger image count for as much less.
-  const double scale = projector.camera().intrinsics().width_px / kUsualWidth_px;
+  const double scale = viewer.image_scale();
   const double most_px = kMostApart_px * scale;
   const double ground_m = projector.config().ground_height_above_home_m;
   Distance distance;

@@ -11,8 +11,6 @@
 namespace geoloc {
 namespace {
 
-/// Pixels are those of an image of that width; of a larger one they count for as much less.
-constexpr double kUsualWidth_px = 1280.0;
 /// A box farther from where an object should be does not show it.
 constexpr double kSigmas = 4.0, kLeastRadius_px = 10.0;
 /// An object less certain than that, an eighth of the image's height, tells nothing.
@@ -30,7 +28,7 @@ constexpr double kLeastDistance_m = 0.5;
 }  // namespace
 
 double PlaceFit::size() const {
-  return viewer_.projector.camera().intrinsics().width_px / kUsualWidth_px;
+  return viewer_.image_scale();
 }
 
 std::optional<Eigen::Vector2d> PlaceFit::shown(const Eigen::Vector3d& place, const FrameView& view) const {

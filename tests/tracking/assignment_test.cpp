@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <string>
+#include <vector>
 
 namespace geoloc {
 namespace {
@@ -87,6 +89,106 @@ INSTANTIATE_TEST_SUITE_P(Shapes, AssignmentLaws,
                            return std::to_string(shape.param.rows) + "x" +
                                   std::to_string(shape.param.columns);
                          });
+
+/// What costs look like.
+struct Kind {
+  const char* name;
+  double (*cost)(std::mt19937& random, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+};
+
+double uniform_cost(std::mt19937& random, const Eigen::Vector2d&, const Eigen::Vector2d&) {
+  return std::uniform_real_distribution<double>(0.0, 1.2 * kMaxCost)(random);
+}
+double cost_with_ties(std::mt19937& random, const Eigen::Vector2d&, const Eigen::Vector2d&) {
+  return std::uniform_int_distribution<int>(0, 4)(random);
+}
+double distance(std::mt19937&, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return kMaxCost * (a - b).norm();
+}
+double distance_in_a_gate(std::mt19937&, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return 5.0 * kMaxCost * (a - b).norm();
+}
+double below_nothing(std::mt19937& random, const Eigen::Vector2d&, const Eigen::Vector2d&) {
+  return std::uniform_real_distribution<double>(-5.0, 0.0)(random);
+}
+
+/// The least cost by shortest augmenting paths from zero prices, one row after the other; rows <= columns.
+double least_cost_by_augmenting_paths(const Eigen::MatrixXd& costs) {
+  const Eigen::Index rows = costs.rows(), columns = costs.cols();
+  const double infinity = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd row_price = Eigen::VectorXd::Zero(rows + 1), price = Eigen::VectorXd::Zero(columns + 1);
+  std::vector<Eigen::Index> row_of(columns + 1, 0), before(columns + 1, 0);  // from 1; 0: none
+  for (Eigen::Index row = 1; row <= rows; ++row) {
+    Eigen::VectorXd distance = Eigen::VectorXd::Constant(columns + 1, infinity);
+    std::vector<char> is_reached(columns + 1, 0);
+    row_of[0] = row;
+    Eigen::Index at = 0;
+    do {
+      is_reached[at] = 1;
+      Eigen::Index nearest = 0;
+      double step = infinity;
+      for (Eigen::Index j = 1; j <= columns; ++j) {
+        if (is_reached[j] != 0) continue;
+        const double through = costs(row_of[at] - 1, j - 1) - row_price[row_of[at]] - price[j];
+        if (through < distance[j]) {
+          distance[j] = through;
+          before[j] = at;
+        }
+        if (distance[j] < step) {
+          step = distance[j];
+          nearest = j;
+        }
+      }
+      for (Eigen::Index j = 0; j <= columns; ++j) {
+        if (is_reached[j] != 0) {
+          row_price[row_of[j]] += step;
+          price[j] -= step;
+        } else {
+          distance[j] -= step;
+        }
+      }
+      at = nearest;
+    } while (row_of[at] != 0);
+    for (; at != 0; at = before[at]) row_of[at] = row_of[before[at]];
+  }
+  double sum = 0.0;
+  for (Eigen::Index j = 1; j <= columns; ++j)
+    if (row_of[j] != 0) sum += costs(row_of[j] - 1, j - 1);
+  return sum;
+}
+
+class AssignmentOfManyKinds : public ::testing::TestWithParam<Kind> {};
+
+TEST_P(AssignmentOfManyKinds, CostIsThatOfAugmentingPathsWithoutReductions) {
+  AssignmentSolver solver;  // one for all sizes: what a problem leaves behind must not reach the next
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform;
+  const auto places = [&](int count) {
+    std::vector<Eigen::Vector2d> places;
+    for (int i = 0; i < count; ++i) places.emplace_back(uniform(random), uniform(random));
+    return places;
+  };
+  for (const auto& [rows, columns] : {Shape{40, 40}, Shape{80, 17}, Shape{16, 64}, Shape{33, 31},
+                                      Shape{1, 50}, Shape{50, 2}, Shape{100, 100}, Shape{15, 16}}) {
+    const auto from = places(rows), to = places(columns);
+    Eigen::MatrixXd costs(rows, columns);
+    for (int i = 0; i < rows; ++i)
+      for (int j = 0; j < columns; ++j) costs(i, j) = GetParam().cost(random, from[i], to[j]);
+    Eigen::MatrixXd limited = costs.cwiseMin(kMaxCost);
+    if (rows > columns) limited.transposeInPlace();
+    const double left_over = kMaxCost * std::max(0, rows - columns);
+    EXPECT_NEAR(cost_of(costs, solver.solve(costs, kMaxCost)),
+                least_cost_by_augmenting_paths(limited) + left_over, 1e-9)
+        << rows << " x " << columns;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, AssignmentOfManyKinds,
+                         ::testing::Values(Kind{"Uniform", uniform_cost}, Kind{"Ties", cost_with_ties},
+                                           Kind{"Distances", distance},
+                                           Kind{"DistancesInAGate", distance_in_a_gate},
+                                           Kind{"BelowNothing", below_nothing}),
+                         [](const auto& kind) { return std::string(kind.param.name); });
 
 TEST(Assignment, AnswersEmptyProblems) {
   AssignmentSolver solver;

@@ -9,12 +9,12 @@ namespace geoloc {
 namespace {
 
 constexpr double kMatchGate = 11.8, kMatchAmbiguity = 9.0;
-const LocalFrame kFrame({-22.906, -43.133});
+const LocalFrame kSurveyFrame({-22.906, -43.133});
 const GroundModel kLevel(3.0);
 
 KnownPoint point_at(const Eigen::Vector2d& position_in_enu) {
   KnownPoint point;
-  point.position = kFrame.to_geodetic(position_in_enu);
+  point.position = kSurveyFrame.to_geodetic(position_in_enu);
   return point;
 }
 
@@ -28,7 +28,7 @@ VehicleTime at_flight_s(double time_s) {
 template <typename IsCovered>
 void cover(KnownPointMatcher& known, double begin_s, int frames, const IsCovered& is_covered) {
   for (int frame = 0; frame < frames; ++frame)
-    known.cover(kFrame, kLevel, at_flight_s(begin_s + 2.0 * frame), kFoundByAFrame, is_covered);
+    known.cover(kSurveyFrame, kLevel, at_flight_s(begin_s + 2.0 * frame), kFoundByAFrame, is_covered);
 }
 
 void cover(KnownPointMatcher& known, int frames) {
@@ -111,7 +111,7 @@ TEST(KnownPoints, WaitUntilTheirObjectsWouldHaveBeenFound) {
     EXPECT_EQ(known.matches()[0].status, KnownPointStatus::kNotCovered);
     int frames = 0;
     do {
-      known.cover(kFrame, kLevel, at_flight_s(period_s * frames++), kFoundByAFrame, is_west);
+      known.cover(kSurveyFrame, kLevel, at_flight_s(period_s * frames++), kFoundByAFrame, is_west);
     } while (!match(known, candidates) && frames < 100);
     const double looks = 1.0 + (frames - 1) * std::min(1.0, period_s);
     EXPECT_GT(looks, 1.0) << period_s;

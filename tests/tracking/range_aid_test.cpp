@@ -14,7 +14,7 @@
 namespace geoloc {
 namespace {
 
-const LocalFrame kFrame({46.05, 7.03});
+const LocalFrame kHillFrame({46.05, 7.03});
 
 VehicleState vehicle_at(const Eigen::Vector3d& reported, const EulerAngles& attitude) {
   VehicleState vehicle;
@@ -42,7 +42,7 @@ TEST(HeightReadings, AreCorrectedForTheTilt) {
 /// On a hillside the beam of a tilted vehicle ends higher or lower than the ground below it.
 TEST(HeightReadings, CountFromWhereTheBeamEnds) {
   const Eigen::Vector2d slope(0.4, -0.1);
-  const GroundModel hillside(testing::tilted_ground(kFrame, slope), kFrame, 0.5);
+  const GroundModel hillside(testing::tilted_ground(kHillFrame, slope), kHillFrame, 0.5);
   const VehicleState vehicle = vehicle_at({10.0, -20.0, 40.0}, {0.2, 0.1, 2.0});
   const Eigen::Vector3d down = vehicle.enu_from_body.rotation * Eigen::Vector3d::UnitZ();
   const Eigen::Vector3d normal(-slope.x(), -slope.y(), 1.0);
