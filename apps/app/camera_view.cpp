@@ -14,7 +14,7 @@ namespace {
 std::optional<Eigen::Vector2d> image_point(const Geolocator& geolocator,
                                            const Eigen::Vector3d& position_in_enu) {
   const Projector& projector = geolocator.projector();
-  const auto pixel = projector.reproject(position_in_enu, geolocator.view().enu_from_camera);
+  const auto pixel = projector.reproject(position_in_enu, geolocator.view());
   if (!pixel || !projector.camera().contains(*pixel)) return std::nullopt;
   const CameraIntrinsics& image = projector.camera().intrinsics();
   return Eigen::Vector2d((pixel->x() + 0.5) / image.width_px, (pixel->y() + 0.5) / image.height_px);
@@ -54,7 +54,7 @@ io::CameraView camera_view(const Geolocator& geolocator, HostTime captured_at) {
   view.ned_from_camera = enu_from_ned().conjugate() * enu_from_camera.rotation *
                          body_from_forward_camera().conjugate();  // its axes to forward, right, down
   const auto centre = geolocator.projector().project(
-      {0.5 * image.width_px - 0.5, 0.5 * image.height_px - 0.5}, enu_from_camera);
+      {0.5 * image.width_px - 0.5, 0.5 * image.height_px - 0.5}, geolocator.view());
   if (centre) view.image_centre = frame.to_geodetic(centre->position_in_enu);
   for (const Track& track : geolocator.tracks()) {
     if (track.status == TrackStatus::kConfirmed) view.targets.push_back(target_of(track, geolocator));
