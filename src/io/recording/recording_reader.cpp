@@ -46,6 +46,17 @@ CameraMount parse_mount(const json& value) {
   return mount;
 }
 
+/// Beyond these no image of any size has one; whether this camera's may is asked where that is known.
+Eigen::Vector2d parse_focal_length(const json& value) {
+  constexpr double kShortest_px = 0.01, kLongest_px = 1e9;
+  if (!value.is_array() || value.size() != 2)
+    throw std::invalid_argument("focal_px must be two numbers, fx and fy");
+  const Eigen::Vector2d focal_px(finite_number(value[0], "focal_px"), finite_number(value[1], "focal_px"));
+  if (!(focal_px.minCoeff() >= kShortest_px && focal_px.maxCoeff() <= kLongest_px))
+    throw std::invalid_argument("focal_px must be in pixels of the full image, above 0");
+  return focal_px;
+}
+
 RecordedFrame parse_frame(const std::string& line) {
   const json value = json::parse(line, nullptr, false);
   if (value.is_discarded() || !value.is_object()) throw std::invalid_argument("not a JSON object");
@@ -59,6 +70,7 @@ RecordedFrame parse_frame(const std::string& line) {
   if (value.contains("time_sigma_s")) frame.time_sigma_s = parse_time_sigma_s(value["time_sigma_s"]);
   if (value.contains("time_quality")) frame.time_quality = parse_time_quality(value["time_quality"]);
   if (value.contains("mount")) frame.mount = parse_mount(value["mount"]);
+  if (value.contains("focal_px")) frame.focal_px = parse_focal_length(value["focal_px"]);
   const json& detections = member(value, "detections");
   if (!detections.is_array()) throw std::invalid_argument("detections must be a list");
   for (const json& detection : detections) frame.detections.push_back(detection_from_json(detection));
