@@ -14,7 +14,7 @@ namespace {
 std::optional<Eigen::Vector2d> image_point(const Geolocator& geolocator,
                                            const Eigen::Vector3d& position_in_enu) {
   const Projector& projector = geolocator.projector();
-  const auto pixel = projector.reproject(position_in_enu, geolocator.view().enu_from_camera);
+  const auto pixel = projector.reproject(position_in_enu, geolocator.view());
   if (!pixel || !projector.camera().contains(*pixel)) return std::nullopt;
   const CameraIntrinsics& image = projector.camera().intrinsics();
   return Eigen::Vector2d((pixel->x() + 0.5) / image.width_px, (pixel->y() + 0.5) / image.height_px);
@@ -44,6 +44,7 @@ io::CameraView camera_view(const Geolocator& geolocator, HostTime captured_at) {
   io::CameraView view;
   view.captured_at = captured_at;
   view.time = geolocator.view().vehicle.time;
+  view.focal_px = geolocator.view().focal_px;
   view.camera = frame.to_geodetic(enu_from_camera.translation.head<2>());
   if (const auto home_height_msl_m = geolocator.state().home_height_msl_m()) {
     const double home_in_view_msl_m = *home_height_msl_m - geolocator.view().lifted_m;
@@ -54,7 +55,7 @@ io::CameraView camera_view(const Geolocator& geolocator, HostTime captured_at) {
   view.ned_from_camera = enu_from_ned().conjugate() * enu_from_camera.rotation *
                          body_from_forward_camera().conjugate();  // its axes to forward, right, down
   const auto centre = geolocator.projector().project(
-      {0.5 * image.width_px - 0.5, 0.5 * image.height_px - 0.5}, enu_from_camera);
+      {0.5 * image.width_px - 0.5, 0.5 * image.height_px - 0.5}, geolocator.view());
   if (centre) view.image_centre = frame.to_geodetic(centre->position_in_enu);
   for (const Track& track : geolocator.tracks()) {
     if (track.status == TrackStatus::kConfirmed) view.targets.push_back(target_of(track, geolocator));

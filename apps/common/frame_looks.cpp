@@ -10,8 +10,7 @@ namespace geoloc::apps {
 namespace {
 
 std::optional<Eigen::Vector2d> pixel_of(const Track& object, const Geolocator& geolocator) {
-  return geolocator.projector().reproject(position_in_view(object, geolocator),
-                                          geolocator.view().enu_from_camera);
+  return geolocator.projector().reproject(position_in_view(object, geolocator), geolocator.view());
 }
 
 struct ShownObject {

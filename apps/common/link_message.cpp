@@ -53,11 +53,24 @@ std::string fault(const io::LinkStatus& link, const Geolocator& geolocator) {
   return {};
 }
 
+/// What is known of a camera's zoom; empty of one that tells none, or always the same.
+std::string on_zoom(const io::LinkStatus& link) {
+  if (link.zooms_untold)
+    return "; the camera zooms (CAMERA_SETTINGS) and does not tell its field of view (CAMERA_FOV_STATUS): "
+           "its "
+           "focal length is taken to be the calibration's, which is wrong while it zooms";
+  if (!link.has_zoom_changed) return {};
+  if (is_silent(link.since_field_of_view))
+    return "; its camera does not tell its field of view any more: the last one is taken to hold";
+  return fmt::format("; its camera tells its zoom ({:.0f}/s)", link.field_of_view_rate_hz);
+}
+
 /// The message where telemetry comes.
 std::string comes(const io::LinkStatus& link, const Geolocator& geolocator) {
-  if (!is_on_gimbal(geolocator)) return "telemetry comes";
+  if (!is_on_gimbal(geolocator)) return "telemetry comes" + on_zoom(link);
   return fmt::format("telemetry comes, and the angles of gimbal {} ({:.0f}/s)", link.gimbal->number(),
-                     link.gimbal_rate_hz);
+                     link.gimbal_rate_hz) +
+         on_zoom(link);
 }
 
 }  // namespace

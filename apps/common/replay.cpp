@@ -44,7 +44,8 @@ void replay(const io::Tlog& telemetry, const std::vector<io::RecordedFrame>& fra
   TelemetryFeed feed(telemetry, session);
   for (const io::RecordedFrame& frame : frames) {
     take_what_was_known(feed, frame, session);
-    const PendingFrame pending{frame.captured_at, frame.detections, frame.time_sigma_s, frame.mount};
+    const PendingFrame pending{frame.captured_at, frame.detections, frame.time_sigma_s, frame.mount,
+                               frame.focal_px};
     const bool is_located = session.process(pending);
     if (on_frame && !on_frame(pending, is_located)) return session.finish();
   }

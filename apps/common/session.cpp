@@ -91,6 +91,7 @@ bool Session::process(const PendingFrame& frame) {
   frame_.captured_at_host = frame.captured_at;
   frame_.time_sigma_s = time_sigma_s(frame, link_.clock());
   frame_.mount = frame.mount;
+  frame_.focal_px = frame.focal_px;
   frame_.detections = frame.detections;
   frame_looks_.expect(geolocator_);
   const std::uint64_t number = frames();

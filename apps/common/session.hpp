@@ -23,6 +23,8 @@ struct PendingFrame {
   std::vector<Detection> detections;
   double time_sigma_s = 0.0;                        ///< 1-sigma of captured_at; 0: not stated
   std::optional<CameraMount> mount = std::nullopt;  ///< of a camera that moves; nullopt: as configured
+  /// Focal length [fx, fy] that a camera that zooms tells with the frame; nullopt: it tells none.
+  std::optional<Eigen::Vector2d> focal_px = std::nullopt;
 };
 
 /// Telemetry bytes and detections in, objects out: what a live run and a replay share. It reads no clock and
@@ -80,6 +82,7 @@ class Session final : private io::TelemetrySink {
   void on_position(const PositionSample& sample) override;
   void on_range(const RangeSample& sample) override { geolocator_.add(sample); }
   void on_gimbal(const GimbalSample& sample) override;
+  void on_field_of_view(const FieldOfViewSample& sample) override { geolocator_.add(sample); }
   void on_reboot() override { geolocator_.on_vehicle_reboot(); }
   void on_other_vehicle() override { begin_anew(); }
   void on_clock_step(Duration change) override;

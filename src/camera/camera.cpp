@@ -103,6 +103,11 @@ CameraIntrinsics CameraIntrinsics::from_field_of_view(int width_px, int height_p
   return intrinsics;
 }
 
+bool is_focal_length(const Eigen::Vector2d& focal_px, const CameraIntrinsics& image) {
+  return Range::positive().contains(focal_px.x()) && is_focal_length_for(focal_px.x(), image.width_px) &&
+         Range::positive().contains(focal_px.y()) && is_focal_length_for(focal_px.y(), image.height_px);
+}
+
 std::vector<std::string> CameraConfig::problems() const {
   return check_fields(*this);
 }
@@ -142,6 +147,13 @@ Rigid3d body_from_camera(const CameraMount& mount) {
 CameraModel::CameraModel(const CameraIntrinsics& intrinsics)
     : intrinsics_(intrinsics), max_radius_squared_(monotonic_radius_squared(intrinsics.distortion)) {
   throw_if_any(CameraConfig{intrinsics, {}}.problems());
+}
+
+CameraModel CameraModel::with_focal_length(const Eigen::Vector2d& focal_px) const {
+  CameraModel zoomed = *this;
+  zoomed.intrinsics_.fx_px = focal_px.x();
+  zoomed.intrinsics_.fy_px = focal_px.y();
+  return zoomed;
 }
 
 std::optional<ImageRay> CameraModel::ray(const Eigen::Vector2d& pixel) const {

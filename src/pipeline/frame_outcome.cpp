@@ -14,7 +14,7 @@ const char* explain(FrameFate fate) {
              "frames are not stamped on the vehicle's clock.";
     case FrameFate::kInAGap:
       return "The frame was captured in a gap of the telemetry longer than state.max_gap_s, or where the "
-             "vehicle's state stepped.";
+             "vehicle's state stepped, or the camera's zoom changed unseen.";
     case FrameFate::kAfterTelemetry:
       return "The frame was captured after the newest sample, and waited for no longer: either telemetry has "
              "ended, or frames are not stamped on the vehicle's clock.";
@@ -33,6 +33,9 @@ const char* explain(FrameFate fate) {
     case FrameFate::kNoGimbal:
       return "The camera's mount is of kind gimbal, and no angles of the gimbal have come: add(GimbalSample) "
              "them, or set camera.mount.kind to fixed.";
+    case FrameFate::kUnusableFocalLength:
+      return "The focal length that came with the frame is not 0.01 to 10000 times the image's size that "
+             "way: it is to be in pixels of the full image.";
   }
   return "";
 }

@@ -33,6 +33,10 @@ void Geolocator::add(const GimbalSample& sample) {
   implementation_->add(sample);
 }
 
+void Geolocator::add(const FieldOfViewSample& sample) {
+  implementation_->add(sample);
+}
+
 std::optional<FrameOutcome> Geolocator::add(const FrameDetections& frame) {
   return implementation_->add(frame);
 }

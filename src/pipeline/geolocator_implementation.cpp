@@ -49,6 +49,7 @@ Geolocator::Implementation::Implementation(const GeolocatorConfig& given)
       ground(config.joint.sigma_ground_m),
       tracker(make_tracker(config)),
       waiting(config.max_detections),
+      zoom_(config.camera.intrinsics),
       taken_(config.max_detections) {
   located.reserve(config.max_detections);
   turned_located_.reserve(config.max_detections);
@@ -74,6 +75,10 @@ void Geolocator::Implementation::add(const GimbalSample& sample) {
   if (turned_out_set_point || state.gimbal().reading(sample.yaw) != reading) begin_map_anew();
 }
 
+void Geolocator::Implementation::add(const FieldOfViewSample& sample) {
+  if (const auto focal_px = zoom_.focal_px(sample)) state.add_focal_length(sample.time, *focal_px);
+}
+
 /// Nothing that was estimated holds, but for the local frame.
 void Geolocator::Implementation::begin_map_anew() {
   if (!last_stamp_) return;
@@ -87,6 +92,8 @@ void Geolocator::Implementation::begin_map_anew() {
 std::optional<NoState> Geolocator::Implementation::missing_state(VehicleTime captured_at) const {
   const auto vehicle = state.at(believed_time(captured_at));
   if (!vehicle) return vehicle.error();
+  if (!state.is_zoom_settled(vehicle->time)) return NoState::kNotYet;
+  if (const auto zoom = state.zoom().at(vehicle->time); !zoom) return zoom.error();
   if (config.camera.mount.kind != MountKind::kGimbal) return std::nullopt;
   const auto gimbal = state.gimbal_at(*vehicle);
   if (!gimbal) return gimbal.error();
@@ -176,6 +183,8 @@ FrameOutcome Geolocator::Implementation::count(const FrameStamp& stamp, FrameFat
 FrameFate Geolocator::Implementation::locate(const KeptFrame& frame) {
   const FrameStamp& stamp = frame.stamp;
   if (stamp.mount && !is_usable(*stamp.mount)) return FrameFate::kUnusableMount;
+  if (stamp.focal_px && !is_focal_length(*stamp.focal_px, config.camera.intrinsics))
+    return FrameFate::kUnusableFocalLength;
   anchor_state(stamp.captured_at);
   const auto nominal_view = viewer.nominal_view(stamp, tracker->calibration().latency_s());
   if (!nominal_view) return fate_of(nominal_view.error());
@@ -253,8 +262,8 @@ void Geolocator::Implementation::locate(const std::vector<Detection>& detections
   found.clear();
   for (const Detection& detection : detections) {
     const auto fix = config.method == Method::kJoint
-                         ? projector.project(detection.box.centre(), from.enu_from_camera)
-                         : projector.project(detection.box.centre(), from.enu_from_camera, ground);
+                         ? projector.project(detection.box.centre(), from)
+                         : projector.project(detection.box.centre(), from, ground);
     if (fix) {
       found.push_back({detection, *fix});
     } else {

@@ -14,6 +14,7 @@
 #include "geoloc/state/state_provider.hpp"
 #include "pipeline/frame_queue.hpp"
 #include "pipeline/kept_frame.hpp"
+#include "pipeline/zoom_scale.hpp"
 #include "projection/frame_viewer.hpp"
 #include "tracking/tracker.hpp"
 
@@ -27,6 +28,7 @@ class Geolocator::Implementation {
 
   void add(const RangeSample& sample);
   void add(const GimbalSample& sample);
+  void add(const FieldOfViewSample& sample);
   std::optional<FrameOutcome> add(const FrameDetections& frame);
   std::optional<FrameOutcome> process_next(FrameWait wait);
   bool process(const FrameDetections& frame);
@@ -66,6 +68,7 @@ class Geolocator::Implementation {
   void track_either_way(const KeptFrame& frame);
   bool may_be_turned(const FrameStamp& stamp);
 
+  ZoomScale zoom_;
   StateBuffer<double> ranges_;
   std::uint64_t reboots_ = 0;                                            // when ranges_ was begun
   bool has_object_ = false;                                              // a confirmed one

@@ -42,6 +42,7 @@ FrameStamp stamp_of(const FrameDetections& frame) {
                                : HostTime{frame.captured_at.time_since_epoch()};
   stamp.time_sigma_s = usable_sigma(frame.time_sigma_s);
   stamp.mount = frame.mount;
+  stamp.focal_px = frame.focal_px;
   return stamp;
 }
 

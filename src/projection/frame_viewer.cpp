@@ -24,6 +24,14 @@ Expected<FrameView, NoState> FrameViewer::nominal_view(const FrameStamp& stamp, 
   view.vehicle = vehicle;
   view.captured_at_host = stamp.captured_at_host;
   view.latency_s = latency_s;
+  if (stamp.focal_px) {
+    view.focal_px = stamp.focal_px;
+  } else if (const auto zoom = state.zoom().at(vehicle.time)) {
+    view.focal_px = zoom->focal_px;
+    view.sigma_focal_share = zoom->sigma_share;
+  } else {
+    return zoom.error();
+  }
   if (mounted.kind == MountKind::kFixed) {
     view.enu_from_camera = enu_from_camera(vehicle, mounted, orientation);
     view.turn = turn_of(vehicle);
@@ -37,7 +45,7 @@ Expected<FrameView, NoState> FrameViewer::nominal_view(const FrameStamp& stamp, 
 }
 
 bool FrameViewer::is_settled(const FrameStamp& stamp, VehicleTime time) const {
-  return state.is_settled(time) &&
+  return state.is_settled(time) && (stamp.focal_px || state.is_zoom_settled(time)) &&
          (mount_of(stamp).kind == MountKind::kFixed || state.gimbal().reaches_beyond(time));
 }
 

@@ -156,4 +156,48 @@ bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_
   return pixel && camera_.contains(*pixel, margin_px) && project(*pixel, enu_from_camera, ground).has_value();
 }
 
+/// A copy is made only where the camera zooms.
+template <typename Ask>
+auto Projector::zoomed_as(const FrameView& view, const Ask& ask) const {
+  if (!view.focal_px) return ask(*this);
+  Projector zoomed = *this;
+  zoomed.camera_ = camera_.with_focal_length(*view.focal_px);
+  return ask(zoomed);
+}
+
+Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel, const FrameView& from) const {
+  return zoomed_as(from, [&](const Projector& p) { return p.project(pixel, from.enu_from_camera); });
+}
+
+Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel, const FrameView& from,
+                                              const GroundModel& ground) const {
+  return zoomed_as(from, [&](const Projector& p) { return p.project(pixel, from.enu_from_camera, ground); });
+}
+
+Expected<GroundFix, NoFix> Projector::fix_of_point(const Eigen::Vector3d& point_in_enu,
+                                                   const FrameView& from) const {
+  return zoomed_as(from,
+                   [&](const Projector& p) { return p.fix_of_point(point_in_enu, from.enu_from_camera); });
+}
+
+std::optional<Eigen::Vector2d> Projector::reproject(const Eigen::Vector3d& position_in_enu,
+                                                    const FrameView& from) const {
+  return zoomed_as(from,
+                   [&](const Projector& p) { return p.reproject(position_in_enu, from.enu_from_camera); });
+}
+
+bool Projector::sees_point(const Eigen::Vector3d& position_in_enu, const FrameView& from,
+                           double margin_px) const {
+  return zoomed_as(from, [&](const Projector& p) {
+    return p.sees_point(position_in_enu, from.enu_from_camera, margin_px);
+  });
+}
+
+bool Projector::sees(const Eigen::Vector2d& position_in_enu, const FrameView& from, double margin_px,
+                     const GroundModel& ground) const {
+  return zoomed_as(from, [&](const Projector& p) {
+    return p.sees(position_in_enu, from.enu_from_camera, margin_px, ground);
+  });
+}
+
 }  // namespace geoloc

@@ -123,6 +123,7 @@ void StateProvider::forget_samples() {
   attitudes_.clear();
   positions_.clear();
   gimbal_.restart();
+  zoom_.restart();
   newest_gimbal_.reset();
   if (unconfirmed_) frame_.reset();
   unconfirmed_.reset();
@@ -165,6 +166,15 @@ void StateProvider::add(const GimbalSample& sample) {
   if (newest_gimbal_) compare_with_vehicle(*newest_gimbal_);
   newest_gimbal_ = sample;
   gimbal_.add(sample, *steps);
+}
+
+/// Whatever comes of a camera, what is made of the vehicle's own samples is the same.
+void StateProvider::add_focal_length(VehicleTime time, const Eigen::Vector2d& focal_px) {
+  if (!boot_clock_.is_near_newest(time)) {
+    ++counters_.suspect_stamps;
+    return;
+  }
+  zoom_.add(time, focal_px);
 }
 
 /// One whose vehicle's attitude is not known yet is left out: there are enough of them.
@@ -306,6 +316,7 @@ StateProvider::Counters StateProvider::counters() const {
   all.positions = positions_.counters().inserted;
   const auto& gimbals = gimbal_.counters();
   all.gimbals = gimbals.inserted;
+  all.focal_lengths = zoom_.count();
   all.duplicates = attitudes_.counters().duplicates + positions_.counters().duplicates + gimbals.duplicates;
   all.stale += attitudes_.counters().stale + positions_.counters().stale + gimbals.stale;
   all.home_moves = home_.moves();

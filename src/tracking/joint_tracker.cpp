@@ -343,7 +343,7 @@ void JointTracker::cover_known_points(const LocatedFrame& frame, const FrameShif
   const Projector& projector = frame.projector;
   const double margin_px = kCoverMargin * projector.camera().intrinsics().height_px;
   const auto is_covered = [&](const Eigen::Vector3d& point_in_enu) {
-    return projector.sees_point(shift.shown(point_in_enu), frame.view.enu_from_camera, margin_px);
+    return projector.sees_point(shift.shown(point_in_enu), frame.view, margin_px);
   };
   known_points_.cover(frame.local_frame, frame.ground, frame.view.vehicle.time, detection_rate_.probability(),
                       is_covered);

@@ -72,11 +72,11 @@ LatencyWatch::Distance LatencyWatch::distance_of_pair(std::size_t age, double la
   const double ground_m = projector.config().ground_height_above_home_m;
   Distance distance;
   for (std::size_t i = 0; i < before.count; ++i) {
-    const auto place = projector.project(before.pixels[i], view_before->enu_from_camera);
+    const auto place = projector.project(before.pixels[i], *view_before);
     if (!place) continue;
     const Eigen::Vector2d& on_ground = place->position_in_enu;
     const Eigen::Vector3d point(on_ground.x(), on_ground.y(), ground_m);
-    const auto shown = projector.reproject(point, view_now->enu_from_camera);
+    const auto shown = projector.reproject(point, *view_now);
     if (!shown || !is_well_inside(*shown, 2.0 * most_px, projector.camera().intrinsics())) continue;
     double nearest_px2 = most_px * most_px;
     for (std::size_t k = 0; k < now.count; ++k)

@@ -43,6 +43,16 @@ CalibrationVector applied(const Calibration& calibration, const FrameView& view)
   return applied;
 }
 
+/// What the focal length is off by while the camera zooms moves a look to the principal point, or away from
+/// it.
+Eigen::Matrix2d zoom_noise(const Detection& detection, const GroundFix& fix, const JointFrame& frame) {
+  const CameraIntrinsics& camera = frame.projector.camera().intrinsics();
+  const Eigen::Vector2d from_principal_px =
+      detection.box.centre() - Eigen::Vector2d(camera.cx_px, camera.cy_px);
+  const Eigen::Vector2d moved = frame.view.sigma_focal_share * (fix.ground_from_pixel * from_principal_px);
+  return moved * moved.transpose();
+}
+
 }  // namespace
 
 bool is_of_moving_class(const Detection& detection, const MovingConfig& moving) {
@@ -88,7 +98,8 @@ struct LookMaker::Noise {
   Eigen::Matrix2d attitude;
   Eigen::Matrix2d position;
   Eigen::Matrix2d interpolation;  // of the vehicle's state between two samples
-  Eigen::Matrix2d bend;           // of the same in a bend: not alike for the looks of a frame
+  // Not alike for the looks of a frame: of the vehicle's state in a bend, and of a camera that just zooms.
+  Eigen::Matrix2d bend;
 };
 
 LookMaker::Noise LookMaker::noise_of(const Detection& detection, const GroundFix& fix,
@@ -109,7 +120,7 @@ LookMaker::Noise LookMaker::noise_of(const Detection& detection, const GroundFix
           position_variance * Eigen::Matrix2d::Identity(),
           std::pow(turned.sigma_rad, 2) * per_turn +
               std::pow(vehicle.sigma_position_m, 2) * Eigen::Matrix2d::Identity(),
-          std::pow(turned.sigma_bend_rad, 2) * per_turn};
+          std::pow(turned.sigma_bend_rad, 2) * per_turn + zoom_noise(detection, fix, frame)};
 }
 
 /// The attitude's error is the same in all looks of a frame: N of them with N times its variance say as much
@@ -145,7 +156,7 @@ LandmarkObservation LookMaker::linearised_at(const Point& position_in_enu, const
                                              const SharedErrorEstimate& errors) const {
   const FrameShift shift = shift_by(errors.calibration, frame.drift, frame.ground_height_m);
   const Eigen::Vector3d shown_in_enu = shift.shown(Eigen::Vector3d(position_in_enu));
-  const auto there = frame.projector.fix_of_point(shown_in_enu, frame.view.enu_from_camera);
+  const auto there = frame.projector.fix_of_point(shown_in_enu, frame.view);
   if (!there) return look.observation;
   const Eigen::Vector3d& camera_in_enu = frame.view.enu_from_camera.translation;
   const double below_camera_m = camera_in_enu.z() - shown_in_enu.z();

@@ -81,7 +81,7 @@ void OpeningLooks::linearise_anew(const Frame& frame, const FrameView& view, con
     const Sighting& sighting = sightings_[i];
     RestingObject* const object = tracks.find(sighting.track_id);
     if (object == nullptr || frame.time < object->sums_since) continue;
-    const auto fix = projector.project(sighting.detection.box.centre(), view.enu_from_camera);
+    const auto fix = projector.project(sighting.detection.box.centre(), view);
     if (!fix) continue;
     const Look look = maker.make_look({sighting.detection, *fix}, frame.looks_that_share, as_before, errors);
     add_look(*object, look, errors.drift);

@@ -100,8 +100,8 @@ void PaperTracker::update_matched(const std::vector<LocatedDetection>& detection
 void PaperTracker::penalise_missed(const LocatedFrame& frame) {
   for (std::size_t k = 0; k < tracks_.size(); ++k) {
     if (track_is_matched_[k] != 0) continue;
-    if (frame.projector.sees(tracks_[k].position_in_enu.mean, frame.view.enu_from_camera,
-                             config_.visible_margin_px, frame.ground)) {
+    if (frame.projector.sees(tracks_[k].position_in_enu.mean, frame.view, config_.visible_margin_px,
+                             frame.ground)) {
       ++tracks_[k].penalty;
     }
   }

@@ -34,11 +34,11 @@ double PlaceFit::size() const {
 std::optional<Eigen::Vector2d> PlaceFit::shown(const Eigen::Vector3d& place, const FrameView& view) const {
   const Eigen::Vector3d to = place - view.enu_from_camera.translation;
   if (to.head<2>().norm() > -kReach * to.z()) return std::nullopt;
-  return viewer_.projector.reproject(place, view.enu_from_camera);
+  return viewer_.projector.reproject(place, view);
 }
 
 double PlaceFit::radius_px(const WatchedPlace& place, const FrameView& view, double wandering_m) const {
-  const double focal_px = viewer_.projector.camera().intrinsics().fx_px;
+  const double focal_px = viewer_.projector.focal_px(view).x();
   const Eigen::Vector3d to = place.shown_in_enu - view.enu_from_camera.translation;
   const double slope = to.head<2>().norm() / std::max(kLeastDistance_m, -to.z());
   const double sigma_m = std::hypot(place.sigma_m, place.wandering * wandering_m, slope * place.sigma_up_m);
@@ -67,7 +67,7 @@ std::optional<PlaceFit::Tally> PlaceFit::tally_of_pair(const FrameBoxes& before,
   std::array<WatchedPlace, FrameBoxes::kMost> places;
   std::size_t count = 0;
   for (std::size_t k = 0; k < before.count; ++k) {
-    const auto fix = viewer_.projector.project(before.pixels[k], view_before->enu_from_camera);
+    const auto fix = viewer_.projector.project(before.pixels[k], *view_before);
     if (!fix) continue;
     const Eigen::Vector2d& on_ground = fix->position_in_enu;
     places[count++] = {{on_ground.x(), on_ground.y(), ground_m}, 0.0, 0.0, 0.0, true};
@@ -82,7 +82,7 @@ PlaceFit::Tally PlaceFit::tally(const FrameBoxes& frame, const FrameView& view, 
   const double height_m =
       view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const double moved_m = 0.5 * step_s * view.vehicle.velocity_in_enu.norm();
-  const double blur_px = moved_m * projector.camera().intrinsics().fx_px / std::max(1.0, height_m);
+  const double blur_px = moved_m * projector.focal_px(view).x() / std::max(1.0, height_m);
   const double if_missed = std::log(1.0 - expected_.found);
   Tally tally;
   std::bitset<FrameBoxes::kMost> taken;
@@ -171,7 +171,7 @@ bool PlaceFit::any_that_moves(const FrameBoxes& frame, double latency_s, double 
     if (!pixel) return false;
     const double radius = radius_px(place, *view, expected_.wandering_m);
     if (radius > kMostRadius_px * size() || !counts(*pixel, radius)) return false;
-    const auto other = viewer_.projector.reproject(place.shown_in_enu, other_view->enu_from_camera);
+    const auto other = viewer_.projector.reproject(place.shown_in_enu, *other_view);
     return !other || (*other - *pixel).norm() > kRadiiToTell * radius;
   });
 }

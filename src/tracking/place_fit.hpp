@@ -108,12 +108,12 @@ void PlaceFit::for_each_shift(const FrameBoxes& frame, double latency_s,
     if (!place.is_known || place.wandering < kLeastWandering) continue;
     const auto pixel = shown(place.shown_in_enu, *view);
     if (!pixel) continue;
-    const auto here = viewer_.projector.project(*pixel, view->enu_from_camera);
+    const auto here = viewer_.projector.project(*pixel, *view);
     if (!here) continue;
     double nearest_m = kSigmas * place.wandering * expected_.wandering_m + kReach_m;
     std::optional<Eigen::Vector2d> nearest;
     for (std::size_t k = 0; k < frame.count; ++k) {
-      const auto there = viewer_.projector.project(frame.pixels[k], view->enu_from_camera);
+      const auto there = viewer_.projector.project(frame.pixels[k], *view);
       if (!there) continue;
       const Eigen::Vector2d by = there->position_in_enu - here->position_in_enu;
       if (by.norm() >= nearest_m) continue;

@@ -10,7 +10,7 @@ namespace {
 
 std::optional<double> ground_per_pixel(const Eigen::Vector2d& pixel, const Projector& projector,
                                        const FrameView& view) {
-  const auto fix = projector.project(pixel, view.enu_from_camera);
+  const auto fix = projector.project(pixel, view);
   if (!fix) return std::nullopt;
   return std::sqrt(std::abs(fix->ground_from_pixel.determinant()));
 }
@@ -19,7 +19,7 @@ std::optional<double> ground_per_pixel(const Eigen::Vector2d& pixel, const Proje
 
 double visibility(const ShownObject& object, const Projector& projector, const FrameView& view,
                   double sigma_px, double smallest_object_px) {
-  const auto pixel = projector.reproject(object.position_in_enu, view.enu_from_camera);
+  const auto pixel = projector.reproject(object.position_in_enu, view);
   if (!pixel) return 0.0;
   const auto ground_per_pixel_m =
       object.ground_per_pixel_m ? object.ground_per_pixel_m : ground_per_pixel(*pixel, projector, view);

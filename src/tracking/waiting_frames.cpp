@@ -57,7 +57,7 @@ std::optional<LocatedFrame> WaitingFrames::use_next(const LocatedFrame& newest,
   located_.clear();
   for (std::size_t i = 0; i < next.detections; ++i) {
     const Detection& detection = detections_[(next.begin + i) % detections_.size()];
-    const auto fix = newest.projector.project(detection.box.centre(), view_.enu_from_camera);
+    const auto fix = newest.projector.project(detection.box.centre(), view_);
     if (fix) located_.push_back({detection, *fix});
   }
   return LocatedFrame{located_,   newest.projector, view_,         newest.local_frame,

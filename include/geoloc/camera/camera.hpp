@@ -53,6 +53,10 @@ struct CameraMount {
   CameraMount turned_to(const Eigen::Quaterniond& carrier_from_turned) const;
 };
 
+/// Whether a lens of that focal length [fx, fy] may see an image of that size: between 178 deg and 20 arc
+/// seconds of it. False for NaN.
+bool is_focal_length(const Eigen::Vector2d& focal_px, const CameraIntrinsics& image);
+
 enum class CameraOrientation {
   kComposed,    ///< the mount turns in the body frame: enu_from_body * body_from_camera
   kAddedAngles  ///< the mount's angles are added to the vehicle's (paper, eq. 6): right only at small roll
@@ -87,6 +91,10 @@ class CameraModel {
  public:
   /// Throws std::invalid_argument naming every problem.
   explicit CameraModel(const CameraIntrinsics& intrinsics);
+
+  /// The same camera zoomed to the focal length [fx, fy], which must be one (is_focal_length): its principal
+  /// point and its distortion, which is a matter of normalized coordinates, stay.
+  CameraModel with_focal_length(const Eigen::Vector2d& focal_px) const;
 
   /// K^-1 p of eq. 9; nullopt where the pixel is not finite or the distortion has no inverse there.
   std::optional<ImageRay> ray(const Eigen::Vector2d& pixel) const;

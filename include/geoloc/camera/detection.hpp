@@ -55,6 +55,9 @@ struct FrameDetections {
   double time_sigma_s = 0.0;
   /// How a camera on a gimbal was mounted at captured_at; nullopt: as configured.
   std::optional<CameraMount> mount = std::nullopt;
+  /// Focal length [fx, fy] of a camera that zooms, in px of the full image; nullopt: the calibration's. Its
+  /// principal point and its distortion stay the calibration's.
+  std::optional<Eigen::Vector2d> focal_px = std::nullopt;
 };
 
 }  // namespace geoloc

@@ -12,15 +12,17 @@ enum class FrameFate {
   kLocated,          ///< its detections are in located(), and the objects were refined with them
   kNoTelemetry,      ///< no attitude, or no position, has come that could be used
   kBeforeTelemetry,  ///< older than the oldest sample kept
-  kInAGap,           ///< between two samples that lie too far apart, or where the vehicle's state stepped
-  kAfterTelemetry,   ///< newer than the newest sample, and waited for no longer
-  kOutOfOrder,       ///< no later than a frame that was located before
-  kClockBegunAnew,   ///< the vehicle's clock began anew, or stepped, while the frame waited
-  kNoRoom,           ///< too many waited, and nobody called process_next()
-  kUnusableMount,    ///< its mount cannot be
-  kNoGimbal          ///< its camera is on a gimbal, and no angles of that have come
+  kInAGap,  ///< between two samples that lie too far apart, or where the vehicle's state stepped, or the zoom
+            ///< changed unseen
+  kAfterTelemetry,      ///< newer than the newest sample, and waited for no longer
+  kOutOfOrder,          ///< no later than a frame that was located before
+  kClockBegunAnew,      ///< the vehicle's clock began anew, or stepped, while the frame waited
+  kNoRoom,              ///< too many waited, and nobody called process_next()
+  kUnusableMount,       ///< its mount cannot be
+  kNoGimbal,            ///< its camera is on a gimbal, and no angles of that have come
+  kUnusableFocalLength  ///< its focal length cannot be
 };
-inline constexpr std::size_t kFrameFates = 10;
+inline constexpr std::size_t kFrameFates = 11;
 
 /// A sentence for a log: what became of the frame and, where it was not located, what would change that.
 const char* explain(FrameFate fate);

@@ -59,6 +59,11 @@ class Geolocator {
   /// objects so far are void and begin anew (counters().maps_void).
   void add(const GimbalSample& sample);
 
+  /// What a camera that zooms says of it: frames that tell no focal length themselves are located with the
+  /// one at their time, and wait for it where samples come regularly. Fields of view are scaled so that one
+  /// that stands still within 5 % of the calibration's is that.
+  void add(const FieldOfViewSample& sample);
+
   /// A frame waits, at least until there are attitudes and positions from beyond its time, and the gimbal's
   /// angles where the camera is on one; process_next() then locates it. Frames may be added in any order
   /// while they wait. At most 64 do: beyond, the latest one goes, and is returned.

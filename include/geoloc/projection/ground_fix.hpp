@@ -51,13 +51,14 @@ struct LocatedDetection {
   GroundFix fix;
 };
 
-/// When a frame was taken, by both clocks.
+/// When a frame was taken, by both clocks, and what it tells of how.
 struct FrameStamp {
   VehicleTime captured_at;
   HostTime captured_at_host;
   double time_sigma_s = 0.0;                        ///< 1-sigma; 0: not stated
   bool is_turned = false;                           ///< the vehicle's yaw is 180 deg from what it tells
   std::optional<CameraMount> mount = std::nullopt;  ///< where it is not the configured one
+  std::optional<Eigen::Vector2d> focal_px = std::nullopt;  ///< [fx, fy], where it is not the calibration's
 };
 
 /// How the camera turns at a frame, and how well it is known how it was turned.
@@ -79,6 +80,8 @@ struct FrameView {
   /// What lies in the projector's plane: the ground below the vehicle, so high above the level ground.
   double terrain_m = 0.0;
   CameraTurn turn;
+  std::optional<Eigen::Vector2d> focal_px;  ///< [fx, fy] of the camera then; nullopt: the calibration's
+  double sigma_focal_share = 0.0;           ///< 1-sigma of it, as a share of it, while the camera zooms
 };
 
 }  // namespace geoloc

@@ -15,7 +15,7 @@
 namespace geoloc {
 
 /// Pixel to ground point on a horizontal plane, and back (paper, eq. 7-10); or on ground that rises and falls
-/// about that plane.
+/// about that plane. From a mere pose, the camera has the calibration's focal length.
 class Projector {
  public:
   /// Throws std::invalid_argument naming every problem.
@@ -55,11 +55,32 @@ class Projector {
   bool sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_from_camera, double margin_px,
             const GroundModel& ground) const;
 
+  /// The same from the view of a frame, with the focal length that the camera had then.
+  Expected<GroundFix, NoFix> project(const Eigen::Vector2d& pixel, const FrameView& from) const;
+  Expected<GroundFix, NoFix> project(const Eigen::Vector2d& pixel, const FrameView& from,
+                                     const GroundModel& ground) const;
+  Expected<GroundFix, NoFix> fix_of_point(const Eigen::Vector3d& point_in_enu, const FrameView& from) const;
+  std::optional<Eigen::Vector2d> reproject(const Eigen::Vector3d& position_in_enu,
+                                           const FrameView& from) const;
+  bool sees_point(const Eigen::Vector3d& position_in_enu, const FrameView& from, double margin_px) const;
+  bool sees(const Eigen::Vector2d& position_in_enu, const FrameView& from, double margin_px,
+            const GroundModel& ground) const;
+
+  /// The camera's focal length [fx, fy] at a frame.
+  Eigen::Vector2d focal_px(const FrameView& of) const {
+    return of.focal_px.value_or(Eigen::Vector2d(camera_.intrinsics().fx_px, camera_.intrinsics().fy_px));
+  }
+
+  /// With the calibration's focal length; what else it tells holds for every frame.
   const CameraModel& camera() const { return camera_; }
   const ProjectorConfig& config() const { return config_; }
 
  private:
   struct PixelRay;
+
+  /// What `ask` gets of the projector whose camera has the view's focal length.
+  template <typename Ask>
+  auto zoomed_as(const FrameView& view, const Ask& ask) const;
   Expected<PixelRay, NoFix> ray_of(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera) const;
   Expected<double, NoFix> range_of_plane(const Ray<double>& ray) const;
 

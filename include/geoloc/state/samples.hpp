@@ -49,6 +49,14 @@ struct GimbalSample {
   std::optional<bool> holds_direction = std::nullopt;
 };
 
+/// What a camera that zooms says of how much it shows. Where both angles are known, the horizontal one is
+/// used.
+struct FieldOfViewSample {
+  VehicleTime time;
+  std::optional<double> horizontal_rad;  ///< between the left and the right edge of the image
+  std::optional<double> vertical_rad;    ///< between its upper and its lower edge
+};
+
 /// The distance to the ground that a rangefinder looking down the body's axis measures.
 struct RangeSample {
   VehicleTime time;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "geoloc/geometry/expected.hpp"
 #include "geoloc/geometry/time.hpp"
@@ -59,6 +60,8 @@ class StateBuffer {
 
   /// Whether a sample has come from beyond that time.
   bool reaches_beyond(VehicleTime time) const { return size_ > 0 && sample(size_ - 1).time > time; }
+
+  std::optional<T> oldest() const { return size_ > 0 ? std::optional<T>(sample(0).value) : std::nullopt; }
 
   void clear() { size_ = 0; }
   std::size_t size() const { return size_; }

@@ -14,6 +14,7 @@
 #include "geoloc/state/step_watch.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 #include "geoloc/state/with_steps.hpp"
+#include "geoloc/state/zoom_history.hpp"
 
 namespace geoloc {
 
@@ -44,6 +45,7 @@ class StateProvider {
     std::uint64_t attitudes = 0;       ///< taken in
     std::uint64_t positions = 0;       ///< taken in
     std::uint64_t gimbals = 0;         ///< taken in
+    std::uint64_t focal_lengths = 0;   ///< taken in
     std::uint64_t duplicates = 0;      ///< same time as a sample before
     std::uint64_t stale = 0;           ///< older than all that is kept, or late where the state steps
     std::uint64_t invalid = 0;         ///< not finite, no place on Earth, or no rotation
@@ -65,6 +67,8 @@ class StateProvider {
   void add(const AttitudeSample& sample);
   void add(const PositionSample& sample);
   void add(const GimbalSample& sample);
+  /// What a camera that zooms told of that time: [fx, fy], finite and positive.
+  void add_focal_length(VehicleTime time, const Eigen::Vector2d& focal_px);
 
   Expected<VehicleState, NoState> at(VehicleTime time) const;
 
@@ -78,6 +82,16 @@ class StateProvider {
 
   /// The gimbal's samples, and what was noticed of them.
   const GimbalHistory& gimbal() const { return gimbal_; }
+
+  /// The camera's zoom.
+  const ZoomHistory& zoom() const { return zoom_; }
+
+  /// Whether how far the camera had zoomed in at that time is as well known as it will be: of a camera that
+  /// has stopped telling it, nothing is waited for.
+  bool is_zoom_settled(VehicleTime time) const {
+    const auto due = zoom_.due_after(time);
+    return !due || attitudes_.reaches_beyond(*due);
+  }
 
   /// Rises where the vehicle's clock begins anew or steps: what times of before meant is not known since.
   std::uint64_t clock_epoch() const { return counters_.reboots + counters_.clock_steps; }
@@ -146,6 +160,7 @@ class StateProvider {
   StateBuffer<WithSteps<EulerAngles>> attitudes_;
   StateBuffer<WithSteps<LocalPosition>> positions_;
   GimbalHistory gimbal_;
+  ZoomHistory zoom_;
   std::optional<GimbalSample>
       newest_gimbal_;  // to be compared once the vehicle's attitude around it is known
   StateSteps anchor_;

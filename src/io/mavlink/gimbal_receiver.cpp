@@ -28,32 +28,14 @@ std::optional<GimbalSample> GimbalReceiver::take(std::uint8_t component, const G
   return sample;
 }
 
-/// nullopt where the time cannot be.
+/// nullopt where the time cannot be. A component of its own has a boot clock of its own.
 std::optional<VehicleTime> GimbalReceiver::time_of(std::uint8_t component, const GimbalMessage& message,
                                                    HostTime received_at, const VehicleClock& clock) {
   if (!message.has_time) return clock.map.to_vehicle(received_at);
   const VehicleTime stamp = message.sample.time;
-  if (component != kAutopilotComponent) return time_by_arrival(stamp, received_at, clock.map);
+  if (component != kAutopilotComponent) return clock_.to_vehicle(stamp, received_at, clock.map);
   if (!clock.boot.is_near_newest(stamp) || clock.map.is_early(stamp, received_at)) return std::nullopt;
   return stamp;
-}
-
-/// A component of its own has a boot clock of its own, which is known by the arrival of its messages.
-std::optional<VehicleTime> GimbalReceiver::time_by_arrival(VehicleTime stamp, HostTime received_at,
-                                                           const VehicleClockMap& map) {
-  switch (boot_clock_.observe(stamp)) {
-    case BootClockMonitor::Verdict::kSuspect:
-      return std::nullopt;
-    case BootClockMonitor::Verdict::kRebooted:
-      clock_.clear();
-      break;
-    case BootClockMonitor::Verdict::kAdvanced:
-      break;
-  }
-  clock_.add(stamp, received_at);
-  const auto offset = clock_.offset();
-  if (!offset) return std::nullopt;
-  return map.to_vehicle(HostTime{stamp.time_since_epoch() - *offset});
 }
 
 void GimbalReceiver::restart() {

@@ -12,6 +12,9 @@ inline constexpr std::uint8_t kFirstGimbalComponent = 154;
 inline constexpr std::uint8_t kSecondGimbalComponent = 171;  // to the sixth they are in a row
 inline constexpr std::uint8_t kLastGimbalComponent = 175;
 
+inline constexpr std::uint8_t kFirstCameraComponent = 100;
+inline constexpr std::uint8_t kLastCameraComponent = 105;
+
 inline constexpr std::uint16_t kSetMessageInterval = 511;
 inline constexpr std::uint16_t kRequestMessage = 512;
 inline constexpr std::uint16_t kRequestCameraInformation = 521;

@@ -25,6 +25,14 @@ void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
       "gimbal", mavlink.gimbal, Range::closed(0, 255), "",
       "The camera's gimbal: 1 to 6 of those that the autopilot drives, or its component (154, 171 to 175); "
       "0: the first one heard");
+  v.field(
+      "zoom_rate_hz", mavlink.zoom_rate_hz, Range::closed(0, 50), "Hz",
+      "Rate at which cameras of the vehicle are asked for their field of view, which tells their zoom; 0: "
+      "they are not, but it is used where it comes");
+  v.field(
+      "zoom_camera", mavlink.zoom_camera, Range::closed(0, 255), "",
+      "The camera whose field of view counts: 1 to 6 of those that the autopilot drives, or its component "
+      "(100 to 105); 0: the first one heard");
   v.field("link_timeout_s", mavlink.link_timeout_s, Range::closed(0.5, 60), "s",
           "After this silence everything is requested anew");
   v.field("signing_key_file", mavlink.signing_key_file, Any{}, "",

@@ -155,6 +155,29 @@ Message decode_mount_status(const Frame& frame) {
                         fields.pointing_c / kUnitsPerDegree);
 }
 
+/// nullopt where it is not known, which senders tell by NaN or by 0.
+std::optional<double> angle_of_view_rad(double angle_deg) {
+  if (!(angle_deg > 0.0 && angle_deg < 180.0)) return std::nullopt;
+  return angle_deg * kRadPerDeg;
+}
+
+Message decode_field_of_view(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_camera_fov_status_decode);
+  FieldOfViewMessage message;
+  message.sample.time = boot_time(fields.time_boot_ms);
+  message.sample.horizontal_rad = angle_of_view_rad(fields.hfov);
+  message.sample.vertical_rad = angle_of_view_rad(fields.vfov);
+  message.device_id = fields.camera_device_id;
+  if (!message.sample.horizontal_rad && !message.sample.vertical_rad) return NotDecoded{};
+  return message;
+}
+
+Message decode_camera_settings(const Frame& frame) {
+  const double percent = unpack(frame, mavlink_msg_camera_settings_decode).zoomLevel;
+  if (!(percent >= 0.0 && percent <= 100.0)) return NotDecoded{};
+  return ZoomLevel{percent};
+}
+
 Message decode_gnss_status(const Frame& frame) {
   const auto fields = unpack(frame, mavlink_msg_gps_raw_int_decode);
   GnssStatus status;
@@ -197,6 +220,10 @@ bool Heartbeat::is_from_ardupilot() const {
   return autopilot == MAV_AUTOPILOT_ARDUPILOTMEGA;
 }
 
+bool Heartbeat::is_from_camera() const {
+  return vehicle_type == MAV_TYPE_CAMERA;
+}
+
 bool EstimatorStatus::has_absolute_position() const {
   static_assert(static_cast<int>(EKF_POS_HORIZ_ABS) == static_cast<int>(ESTIMATOR_POS_HORIZ_ABS));
   return (flags & EKF_POS_HORIZ_ABS) != 0;
@@ -222,6 +249,10 @@ Message decode(const Frame& frame) {
       return decode_mount_orientation(frame);
     case MAVLINK_MSG_ID_MOUNT_STATUS:
       return decode_mount_status(frame);
+    case MAVLINK_MSG_ID_CAMERA_FOV_STATUS:
+      return decode_field_of_view(frame);
+    case MAVLINK_MSG_ID_CAMERA_SETTINGS:
+      return decode_camera_settings(frame);
     case MAVLINK_MSG_ID_GPS_RAW_INT:
       return decode_gnss_status(frame);
     case MAVLINK_MSG_ID_EKF_STATUS_REPORT:

@@ -57,7 +57,11 @@ void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
 }  // namespace
 
 VehicleLink::VehicleLink(const MavlinkConfig& config, bool has_gimbal)
-    : config_(config), has_gimbal_(has_gimbal), choice_(config.system_id), gimbal_(config.gimbal) {
+    : config_(config),
+      has_gimbal_(has_gimbal),
+      choice_(config.system_id),
+      gimbal_(config.gimbal),
+      camera_(config) {
   throw_if_any(config.problems());
 }
 
@@ -80,11 +84,7 @@ bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
   if (choice_.observe(frame, message, arrival.at)) begin_with_vehicle(arrival);
   if (frame.sender != choice_.vehicle()) {
     ++counts_.foreign_frames;
-    if (const auto* const gimbal = std::get_if<GimbalMessage>(&message);
-        gimbal && is_of_vehicle(frame.sender)) {
-      requests_.on_message(frame.message_id, arrival.at);
-      take_gimbal(frame.sender.component, *gimbal, arrival);
-    }
+    if (is_of_vehicle(frame.sender)) take_of_component(frame, message, arrival);
     return false;
   }
   ++counts_.vehicle_frames;
@@ -94,6 +94,26 @@ bool VehicleLink::take(const Frame& frame, const Arrival& arrival) {
   requests_.on_message(frame.message_id, arrival.at);
   std::visit([&](const auto& content) { handle(content, arrival); }, message);
   return true;
+}
+
+/// The camera that geoloc itself is to ground stations (mavlink.camera) may be heard as an echo.
+void VehicleLink::take_of_component(const Frame& frame, const Message& message, const Arrival& arrival) {
+  const std::uint8_t component = frame.sender.component;
+  if (config_.camera && component == config_.camera_component_id) return;
+  const auto* const heartbeat = std::get_if<Heartbeat>(&message);
+  camera_.hear(component, heartbeat != nullptr && heartbeat->is_from_camera(), arrival.at);
+  camera_.on_message(component, frame.message_id, arrival.at);
+  if (const auto* const gimbal = std::get_if<GimbalMessage>(&message)) {
+    requests_.on_message(frame.message_id, arrival.at);
+    take_gimbal(component, *gimbal, arrival);
+  } else if (const auto* const view = std::get_if<FieldOfViewMessage>(&message)) {
+    take_field_of_view(component, *view, arrival);
+  } else if (const auto* const level = std::get_if<ZoomLevel>(&message)) {
+    camera_.note(*level);
+  } else if (const auto* const answer = std::get_if<CommandAck>(&message);
+             answer && answer->command == kSetMessageInterval && is_for_us(answer->target)) {
+    camera_.on_answer(component, answer->result, arrival.at);
+  }
 }
 
 /// What was learnt of another vehicle does not hold for this one.
@@ -107,6 +127,7 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   last_refusal_.reset();
   last_stamped_range_.reset();
   gimbal_.restart();
+  camera_.restart();
   last_heard_ = arrival.at;
   fast_timesyncs_ = 0;
   requests_.want(wanted_streams(config_, choice_.is_ardupilot(), has_gimbal_), arrival.at);
@@ -207,6 +228,12 @@ void VehicleLink::take_gimbal(std::uint8_t component, const GimbalMessage& messa
   if (sample) arrival.sink.on_gimbal(*sample);
 }
 
+void VehicleLink::take_field_of_view(std::uint8_t component, const FieldOfViewMessage& message,
+                                     const Arrival& arrival) {
+  const auto sample = camera_.take(component, message, arrival.at, {clock_, boot_clock_}, counts_);
+  if (sample) arrival.sink.on_field_of_view(*sample);
+}
+
 void VehicleLink::handle(const Timesync& message, const Arrival& arrival) {
   const std::int64_t mark = message.requester_ns % kNanosecondsPerStamp;
   if (message.vehicle_ns == 0 || mark != config_.component_id || !is_for_us(message.target)) {
@@ -268,10 +295,17 @@ void VehicleLink::send_requests(HostTime now, const Send& send) {
             : writer_.set_message_interval(self(), *choice_.vehicle(), stream.message_id, stream.rate_hz),
         send);
   }
+  while (const auto request = camera_.next_request(now)) {
+    const MavAddress camera{choice_.vehicle()->system, camera_.asked_component()};
+    send_frame(
+        writer_.set_message_interval(self(), camera, request->stream.message_id, request->stream.rate_hz),
+        send);
+  }
 }
 
 void VehicleLink::ask_anew(HostTime now) {
   requests_.restart(now);
+  camera_.ask_anew(now);
   fast_timesyncs_ = 0;
 }
 
@@ -307,6 +341,7 @@ LinkStatus VehicleLink::status(HostTime now) const {
   status.since_attitude = since(last_attitude_, now);
   status.since_position = since(last_position_, now);
   gimbal_.report(now, status);
+  camera_.report(now, status);
   status.clock_source = clock_.source();
   status.clock_error_bound = clock_.error_bound();
   if (status.vehicle) status.lost_frames = parser_.sequences().lost(*status.vehicle);

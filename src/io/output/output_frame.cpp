@@ -14,7 +14,7 @@ GroundPoint ground_point(const LocalFrame& frame, const Eigen::Vector2d& positio
 }
 
 std::optional<GroundPoint> seen_at(const Eigen::Vector2d& pixel, const Geolocator& geolocator) {
-  const auto fix = geolocator.projector().project(pixel, geolocator.view().enu_from_camera);
+  const auto fix = geolocator.projector().project(pixel, geolocator.view());
   if (!fix) return std::nullopt;
   return ground_point(*geolocator.local_frame(), fix->position_in_enu);
 }

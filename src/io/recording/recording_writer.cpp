@@ -75,6 +75,7 @@ nlohmann::ordered_json to_json(const RecordedFrame& frame) {
   if (frame.time_sigma_s > 0.0) line["time_sigma_s"] = frame.time_sigma_s;
   if (!frame.time_quality.empty()) line["time_quality"] = frame.time_quality;
   if (frame.mount) line["mount"] = own_mount_to_json(*frame.mount);
+  if (frame.focal_px) line["focal_px"] = {frame.focal_px->x(), frame.focal_px->y()};
   line["detections"] = std::move(detections);
   if (frame.telemetry_records) line["telemetry_records"] = *frame.telemetry_records;
   return line;

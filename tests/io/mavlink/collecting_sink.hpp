@@ -20,6 +20,7 @@ class CollectingSink : public TelemetrySink {
   void on_position(const PositionSample& sample) override { positions.push_back(sample); }
   void on_range(const RangeSample& sample) override { ranges.push_back(sample); }
   void on_gimbal(const GimbalSample& sample) override { gimbals.push_back(sample); }
+  void on_field_of_view(const FieldOfViewSample& sample) override { fields_of_view.push_back(sample); }
   void on_reboot() override {
     attitudes_before_reboot.push_back(attitudes.size());
     reboots_at.push_back(frames.back().at);
@@ -34,6 +35,7 @@ class CollectingSink : public TelemetrySink {
   std::vector<PositionSample> positions;
   std::vector<RangeSample> ranges;
   std::vector<GimbalSample> gimbals;
+  std::vector<FieldOfViewSample> fields_of_view;
   std::vector<std::size_t> attitudes_before_reboot;
   std::vector<ReceivedFrame> frames;
   std::vector<HostTime> reboots_at;

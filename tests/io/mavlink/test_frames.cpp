@@ -145,6 +145,23 @@ Bytes FrameFactory::mount_status(double pitch_deg) {
   return pack(mavlink_msg_mount_status_encode_status, fields);
 }
 
+Bytes FrameFactory::field_of_view(VehicleTime time, float horizontal_deg, float vertical_deg,
+                                  std::uint8_t device_id) {
+  mavlink_camera_fov_status_t fields{};
+  fields.time_boot_ms = boot_ms(time);
+  fields.hfov = horizontal_deg;
+  fields.vfov = vertical_deg;
+  fields.camera_device_id = device_id;
+  return pack(mavlink_msg_camera_fov_status_encode_status, fields);
+}
+
+Bytes FrameFactory::zoom_level(float percent) {
+  mavlink_camera_settings_t fields{};
+  fields.zoomLevel = percent;
+  fields.focusLevel = NAN;
+  return pack(mavlink_msg_camera_settings_encode_status, fields);
+}
+
 Bytes FrameFactory::ekf_status(std::uint16_t flags) {
   mavlink_ekf_status_report_t fields{};
   fields.flags = flags;

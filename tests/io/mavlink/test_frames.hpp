@@ -51,6 +51,10 @@ class FrameFactory {
                       std::uint32_t failure_flags = 0);
   Bytes mount_orientation(VehicleTime time, double pitch_deg);
   Bytes mount_status(double pitch_deg);
+  /// CAMERA_FOV_STATUS; nothing is told of where it looks.
+  Bytes field_of_view(VehicleTime time, float horizontal_deg, float vertical_deg, std::uint8_t device_id = 0);
+  /// CAMERA_SETTINGS.
+  Bytes zoom_level(float percent);
   Bytes ekf_status(std::uint16_t flags);
   Bytes estimator_status(std::uint16_t flags);
   Bytes system_time(VehicleTime time);

@@ -24,7 +24,8 @@ RecordedFrame some_frame(std::int64_t time_us) {
           1,
           0.3,
           "arrival",
-          CameraMount{1.0 / 3.0, -45.5, 170.25, 0.1, 0.0, -0.2}};
+          CameraMount{1.0 / 3.0, -45.5, 170.25, 0.1, 0.0, -0.2},
+          Eigen::Vector2d(2741.0 / 3.0, 914.01)};
 }
 
 void write_recording(const std::filesystem::path& folder) {
@@ -66,6 +67,8 @@ TEST(Recording, WhatIsWrittenIsReadBackToTheBit) {
   EXPECT_EQ(recording.frames[0].mount->yaw_deg, 170.25);
   EXPECT_EQ(recording.frames[0].mount->z_m, -0.2);
   EXPECT_FALSE(recording.frames[1].mount);  // as in camera.json
+  EXPECT_EQ(recording.frames[0].focal_px, Eigen::Vector2d(2741.0 / 3.0, 914.01));
+  EXPECT_FALSE(recording.frames[1].focal_px);
   EXPECT_EQ(recording.frames[1].time_sigma_s, 0.0);
   EXPECT_EQ(recording.frames[1].time_quality, "");
   ASSERT_EQ(recording.telemetry.records().size(), 1U);
@@ -229,6 +232,12 @@ INSTANTIATE_TEST_SUITE_P(
                       R"({"time_us": 6, "detections": [], "mount": 3})",
                       R"({"time_us": 6, "detections": [], "mount": {"pitch_deg": "down"}})",
                       R"({"time_us": 6, "detections": [], "mount": {"pitch_deg": 1e9}})",
+                      R"({"time_us": 6, "detections": [], "focal_px": 914})",
+                      R"({"time_us": 6, "detections": [], "focal_px": [914]})",
+                      R"({"time_us": 6, "detections": [], "focal_px": [914, "914"]})",
+                      R"({"time_us": 6, "detections": [], "focal_px": [914, 0]})",
+                      R"({"time_us": 6, "detections": [], "focal_px": [-914, 914]})",
+                      R"({"time_us": 6, "detections": [], "focal_px": [914, 1e300]})",
                       R"({"time_us": 6, "detections": [], "telemetry_records": -3})"));
 
 TEST(Frames, WhatAPowerCutLeavesAtTheEndIsSkippedAndCounted) {

@@ -4,12 +4,11 @@
 #include <cstdint>
 #include <optional>
 
-#include "geoloc/io/mavlink/clock_mapping.hpp"
+#include "geoloc/io/mavlink/component_clock.hpp"
 #include "geoloc/io/mavlink/gimbal_choice.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
 #include "geoloc/io/mavlink/rate_meter.hpp"
-#include "geoloc/state/boot_clock_monitor.hpp"
 #include "geoloc/state/samples.hpp"
 
 namespace geoloc::io {
@@ -17,13 +16,6 @@ namespace geoloc::io {
 /// Takes the angles of the camera's gimbal, on the vehicle's clock, and knows how they come.
 class GimbalReceiver {
  public:
-  /// The vehicle's clock, which the gimbal teaches nothing: what is made of the vehicle's messages must not
-  /// depend on whether there is a gimbal.
-  struct VehicleClock {
-    const VehicleClockMap& map;
-    const BootClockMonitor& boot;
-  };
-
   /// `number`: the only device that may be it (GimbalDevice::number()); 0: any.
   explicit GimbalReceiver(int number) : choice_(number) {}
 
@@ -44,12 +36,9 @@ class GimbalReceiver {
  private:
   std::optional<VehicleTime> time_of(std::uint8_t component, const GimbalMessage& message,
                                      HostTime received_at, const VehicleClock& clock);
-  std::optional<VehicleTime> time_by_arrival(VehicleTime stamp, HostTime received_at,
-                                             const VehicleClockMap& map);
 
   GimbalChoice choice_;
-  ArrivalOffset clock_;  // of a gimbal that is a component of its own, against the host's
-  BootClockMonitor boot_clock_;
+  ComponentClock clock_;  // of a gimbal that is a component of its own
   std::optional<HostTime> last_;
   RateMeter meter_;
   std::uint32_t failure_flags_ = 0;

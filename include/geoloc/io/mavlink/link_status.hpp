@@ -24,6 +24,8 @@ struct TelemetryCounts {
   std::uint64_t ranges = 0;            ///< of a rangefinder that looks down: delivered
   std::uint64_t gimbals = 0;           ///< of the camera's gimbal: delivered
   std::uint64_t other_gimbals = 0;     ///< of another one, or what is told better by another message
+  std::uint64_t fields_of_view = 0;    ///< of the camera that counts: delivered
+  std::uint64_t other_cameras = 0;     ///< fields of view of another one
   std::uint64_t second_attitudes = 0;  ///< ATTITUDE_QUATERNION in addition to ATTITUDE: ignored
   std::uint64_t no_fix_positions = 0;  ///< of a vehicle that did not know its position: ignored
   std::uint64_t refused_values = 0;    ///< not finite, or out of range
@@ -50,6 +52,10 @@ struct LinkStatus {
   std::optional<GimbalDevice> gimbal;      ///< the one that is listened to
   GimbalSource gimbal_source{};            ///< what it tells its angles by
   std::uint32_t gimbal_failure_flags = 0;  ///< GIMBAL_DEVICE_ERROR_FLAGS, of its last message
+  std::optional<Duration> since_field_of_view;
+  double field_of_view_rate_hz = 0.0;
+  bool has_zoom_changed = false;  ///< of the camera, as its field of view tells
+  bool zooms_untold = false;      ///< the camera says that it zooms, and never its field of view
   VehicleClockMap::Source clock_source = VehicleClockMap::Source::kNone;
   std::optional<Duration> clock_error_bound;  ///< nullopt where only arrivals are known
   std::uint64_t lost_frames = 0;              ///< of the vehicle, by its sequence numbers

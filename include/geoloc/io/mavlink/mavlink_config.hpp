@@ -15,6 +15,8 @@ struct MavlinkConfig {
   double rangefinder_rate_hz = 0.0;  ///< 0: what comes is used, but not requested
   double gimbal_rate_hz = 10.0;      ///< of a camera that is on one; 0: what comes is used, but not requested
   int gimbal = 0;                    ///< GimbalDevice::number(); 0: the first one heard
+  double zoom_rate_hz = 5.0;  ///< of a camera's field of view; 0: what comes is used, but not requested
+  int zoom_camera = 0;        ///< CameraReceiver's number; 0: the first one heard
   double link_timeout_s = 3.0;
   std::string signing_key_file;    ///< empty: nothing is signed, and nothing checked
   std::string signing_state_file;  ///< keeps the stamps over restarts; empty: beside the key

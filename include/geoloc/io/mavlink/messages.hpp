@@ -19,6 +19,7 @@ struct Heartbeat {
   /// Not a ground station, camera, gimbal or companion.
   bool is_from_autopilot() const;
   bool is_from_ardupilot() const;
+  bool is_from_camera() const;
 };
 
 /// ATTITUDE or ATTITUDE_QUATERNION.
@@ -47,6 +48,17 @@ struct GimbalMessage {
   bool has_time = false;            ///< of its sender's boot clock; else the sample's time is nothing
   std::uint8_t device_id = 0;       ///< 1 to 6: of the gimbals that an autopilot drives itself; 0: not stated
   std::uint32_t failure_flags = 0;  ///< GIMBAL_DEVICE_ERROR_FLAGS
+};
+
+/// CAMERA_FOV_STATUS: how much a camera shows. What it says of where it looks is not used.
+struct FieldOfViewMessage {
+  FieldOfViewSample sample;    ///< its time is of the sender's boot clock, or 0: not stated
+  std::uint8_t device_id = 0;  ///< 1 to 6: of the cameras that an autopilot drives itself; 0: not stated
+};
+
+/// CAMERA_SETTINGS: how far a camera has zoomed in, in percent of a range that nobody tells.
+struct ZoomLevel {
+  double percent = 0.0;
 };
 
 /// GPS_RAW_INT: the first receiver only. Its own position is not used: the autopilot's estimate is better.
@@ -94,9 +106,9 @@ struct NotDecoded {};
 /// A message with impossible values: not finite, or out of range.
 struct RefusedValues {};
 
-using Message =
-    std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessage, PositionSample, RangeMessage,
-                 GimbalMessage, GnssStatus, EstimatorStatus, Timesync, SystemTime, CommandAck>;
+using Message = std::variant<NotDecoded, RefusedValues, Heartbeat, AttitudeMessage, PositionSample,
+                             RangeMessage, GimbalMessage, FieldOfViewMessage, ZoomLevel, GnssStatus,
+                             EstimatorStatus, Timesync, SystemTime, CommandAck>;
 
 /// Payloads that MAVLink 2 truncated are padded with zeros. Positions (GLOBAL_POSITION_INT) are passed on as
 /// they are: PositionGate judges whether the vehicle knew where it was.

@@ -24,6 +24,9 @@ class TelemetrySink {
   /// A gimbal's angles, for cameras that are on one.
   virtual void on_gimbal(const GimbalSample&) {}
 
+  /// A camera's field of view, where it tells it.
+  virtual void on_field_of_view(const FieldOfViewSample&) {}
+
   /// The vehicle's clock was reset: times before and after it cannot be compared.
   virtual void on_reboot() = 0;
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/camera_receiver.hpp"
 #include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/commands.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
@@ -62,6 +63,7 @@ class VehicleLink {
   };
 
   bool take(const Frame& frame, const Arrival& arrival);
+  void take_of_component(const Frame& frame, const Message& message, const Arrival& arrival);
   void begin_with_vehicle(const Arrival& arrival);
   bool accept_stamp(VehicleTime stamp, const Arrival& arrival);
   bool accept_early_stamp(VehicleTime stamp, const Arrival& arrival);
@@ -76,6 +78,10 @@ class VehicleLink {
   void handle(const GimbalMessage& message, const Arrival& arrival) {
     take_gimbal(choice_.vehicle()->component, message, arrival);
   }
+  void handle(const FieldOfViewMessage& message, const Arrival& arrival) {
+    take_field_of_view(choice_.vehicle()->component, message, arrival);
+  }
+  void handle(const ZoomLevel& message, const Arrival&) { camera_.note(message); }
   void handle(const GnssStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
   void handle(const EstimatorStatus& message, const Arrival& arrival) { gate_.observe(message, arrival.at); }
   void handle(const Timesync& message, const Arrival& arrival);
@@ -83,6 +89,7 @@ class VehicleLink {
   void handle(const CommandAck& message, const Arrival& arrival);
 
   void take_gimbal(std::uint8_t component, const GimbalMessage& message, const Arrival& arrival);
+  void take_field_of_view(std::uint8_t component, const FieldOfViewMessage& message, const Arrival& arrival);
 
   void ask_anew(HostTime now);
   void send_timesync(HostTime now, const Send& send);
@@ -108,6 +115,7 @@ class VehicleLink {
   std::optional<PositionRefusal> last_refusal_;  // of a position, after the last one that was delivered
   std::optional<HostTime> last_stamped_range_;
   GimbalReceiver gimbal_;
+  CameraReceiver camera_;
   bool has_delivered_ = false;  // a sample of the present vehicle
   HostTime last_heard_{};
   bool is_v2_ = false;

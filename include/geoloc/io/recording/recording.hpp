@@ -25,7 +25,8 @@ struct RecordedFrame {
   std::optional<std::uint64_t> telemetry_records;
   double time_sigma_s = 0.0;      ///< 1-sigma of captured_at; 0: not stated
   std::string time_quality = {};  ///< how captured_at was obtained (docs/video.md); empty: not stated
-  std::optional<CameraMount> mount = std::nullopt;  ///< of a camera that moves; nullopt: camera.json's
+  std::optional<CameraMount> mount = std::nullopt;         ///< of a camera that moves; nullopt: camera.json's
+  std::optional<Eigen::Vector2d> focal_px = std::nullopt;  ///< of one that zooms; nullopt: camera.json's
 };
 
 /// As GeoJSON has them.
