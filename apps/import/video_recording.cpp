@@ -106,9 +106,9 @@ void write_telemetry(const LogSource& log, io::RecordingWriter& writer) {
 
 std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& writer) {
   const LogSource& log = flight.log;
-  const bool is_gimbal_told = log.track && !log.track->gimbal.empty();
   CameraConfig camera = flight.camera;
-  if (is_gimbal_told) camera.mount = told_mount(camera.mount);
+  if (log.track && !log.track->gimbal.empty()) camera.mount = told_mount(camera.mount);
+  if (log.track && !log.track->assumed_gimbal.empty()) camera.mount.kind = MountKind::kFixed;
   writer.write_camera(camera);
   writer.write_config(settings_for(log, flight.offset).dump(2));
   write_telemetry(log, writer);
@@ -122,7 +122,7 @@ std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& w
     frame.detections = look.detections;
     frame.time_quality = "file";
     if (log.track && !log.track->assumed_gimbal.empty()) {
-      frame.mount = assumed_mount(*log.track, flight.camera.mount, log.track->begin + since_log_begin);
+      frame.mount = assumed_mount(*log.track, camera.mount, log.track->begin + since_log_begin);
       if (!frame.mount) {
         ++left_out;
         continue;

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 import numpy
-from flight_logs import ATTITUDE, GPS, POSITION, Flight, Ulog, read_tlog, to_dataflash, to_ulog
+from flight_logs import ATTITUDE, GPS, MOUNT, POSITION, Flight, Ulog, read_tlog, to_dataflash, to_ulog
 from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from pymavlink.DFReader import DFReader_binary
 from pyulog import ULog
@@ -68,7 +68,7 @@ class LogOracles(AppTest):
         result = run("geoloc_import", "video", self.sim / "video.mkv", "--camera", self.sim / "camera.json", "--log", log,
                      "--labels", labels, "--out", recording, *arguments)
         self.assertEqual(result.status, 0, result.err)
-        forms = {ATTITUDE: "Ifff", POSITION: "Iiiii", GPS: "QiiiHHHHBBiII"}
+        forms = {ATTITUDE: "Ifff", POSITION: "Iiiii", GPS: "QiiiHHHHBBiII", MOUNT: "Iffff"}
         messages, first_us = {number: [] for number in forms}, None
         for stamp_us, number, payload in read_tlog(recording / "telemetry.tlog"):
             first_us = stamp_us if first_us is None else first_us
@@ -172,7 +172,7 @@ class LogOracles(AppTest):
 
     def assert_subtitles(self, file):
         number = r"\s*:\s*([-+]?[\d.]+)"
-        places = {}
+        places, gimbal = {}, {}
         for block in re.split(r"\n\s*\n", file.read_text()):
             begin = re.search(r"(\d+):(\d+):(\d+)[,.](\d+) -->", block)
             if not begin:
@@ -185,7 +185,8 @@ class LogOracles(AppTest):
             else:
                 places[time_us] = tuple(float(re.search(key + number, block)[1]) for key in
                                         ("latitude", "longitude", "rel_alt", "abs_alt"))
-            pitch = re.search("gb_pitch" + number, block)
+            if "gb_pitch" in block:
+                gimbal[time_us] = tuple(float(re.search(key + number, block)[1]) for key in ("gb_roll", "gb_pitch", "gb_yaw"))
         begin_us = min(places)
         messages = self.import_log(file)
         self.assertGreater(len(messages[POSITION]), 0)
@@ -195,8 +196,16 @@ class LogOracles(AppTest):
             self.assertAlmostEqual(above_home_mm, above_home_m * 1e3, delta=0.6)
             if alt_m is not None:
                 self.assertAlmostEqual(alt_mm, alt_m * 1e3, delta=0.6)
+        self.assertEqual(len(messages[MOUNT]), len(gimbal))
+        for time, roll_deg, pitch_deg, yaw_deg, from_north_deg in messages[MOUNT]:
+            self.assertTrue(math.isnan(yaw_deg))
+            for found, wanted in zip((roll_deg, pitch_deg, from_north_deg), gimbal[time + begin_us]):
+                self.assertAlmostEqual(found, wanted, places=4)
         for frame in self.frames:
-            self.assertAlmostEqual(frame["mount"]["pitch_deg"], float(pitch[1]) if pitch else -90, places=4)
+            if gimbal:
+                self.assertNotIn("mount", frame)
+            else:
+                self.assertAlmostEqual(frame["mount"]["pitch_deg"], -90, places=4)
 
 
 class CameraMessages(AppTest):

@@ -194,6 +194,15 @@ class VideosAndLogsThatDoNotFit(VideoTest):
         other = self.log("camera.json", json.dumps({**camera, "width": 1920, "height": 1080}))
         self.refuse(self.sim / "telemetry.tlog", "1920 x 1080, and the video's are 1280 x 720", camera=other)
 
+    def test_a_gimbal_of_which_the_log_tells_nothing(self):
+        log = self.log("flight.BIN", to_dataflash(self.flight, [self.stamps_us[0]]))
+        camera = self.log("camera.json", json.dumps({**json.loads(self.camera.read_text()), "mount": {"kind": "gimbal"}}))
+        self.refuse(log, "camera.json: the mount is of kind gimbal", "--gimbal-pitch-deg", camera=camera)
+        result = self.import_video(log, "--labels", self.labels(), "--gimbal-pitch-deg", -60, camera=camera)
+        self.assertEqual(result.status, 0, result.err)
+        self.assertEqual(json.loads((self.recording / "camera.json").read_text())["mount"]["kind"], "fixed")
+        self.assertEqual(len([frame for frame in frames_of(self.recording) if "mount" in frame]), len(self.stamps_us))
+
     def test_labels_that_name_no_frame(self):
         for lines, reason in (("a.jpg,1,2", "names no frame"), ("999,1,2", "none of its frames is in")):
             labels = self.log("wrong.csv", f"picture,u,v\n{lines}\n")
