@@ -67,24 +67,13 @@ std::vector<AttitudeSample> level_north(const std::vector<Sample>& samples) {
   return attitudes;
 }
 
-/// Yaws that count from the nose, plus the vehicle's. Both are sorted.
-void count_from_north(const std::vector<AttitudeSample>& attitudes, std::vector<io::LoggedGimbal>& gimbal) {
-  std::size_t near = 0;
-  for (io::LoggedGimbal& sample : gimbal) {
-    if (sample.yaw == GimbalYaw::kFromNorth) continue;
-    while (near + 1 < attitudes.size() && attitudes[near + 1].time <= sample.time) ++near;
-    sample.angles.yaw_rad = wrap_to_pi(sample.angles.yaw_rad + attitudes[near].angles.yaw_rad);
-    sample.yaw = GimbalYaw::kFromNorth;
-  }
-}
-
 /// How the camera looked, where the log has no angle of a gimbal.
 void assume_camera(const TrackFacts& facts, FlightTrack& track) {
   constexpr double kToldSigma_deg = 2.0, kNadirSigma_deg = 5.0, kNadir_deg = -90.0;
   track.is_heading_assumed = true;
-  track.gimbal =
+  track.assumed_gimbal =
       level_gimbal(level_towards_course(track.positions), facts.camera_pitch_deg.value_or(kNadir_deg));
-  track.attitudes = level_north(track.gimbal);
+  track.attitudes = level_north(track.assumed_gimbal);
   track.sigma_attitude_deg = facts.camera_pitch_deg ? kToldSigma_deg : kNadirSigma_deg;
   track.assumptions.push_back(fmt::format(
       "the log does not tell how the camera looked: it is taken to look {}, to {:g} degrees{}",
@@ -104,14 +93,13 @@ void take_angles(io::FlightLog& log, const TrackFacts& facts, FlightTrack& track
   if (track.attitudes.empty() && has_nose_yaws) track.gimbal.clear();
   if (track.attitudes.empty() && track.gimbal.empty()) return assume_camera(facts, track);
   if (track.attitudes.empty()) track.attitudes = level_north(track.gimbal);
-  count_from_north(track.attitudes, track.gimbal);
   if (!track.gimbal.empty()) {
     if (facts.camera_pitch_deg)
       track.assumptions.emplace_back("--gimbal-pitch-deg is not used: the log tells how the camera looked");
     return;
   }
   if (!facts.camera_pitch_deg) return;  // fixed in the vehicle
-  track.gimbal = level_gimbal(track.attitudes, *facts.camera_pitch_deg);
+  track.assumed_gimbal = level_gimbal(track.attitudes, *facts.camera_pitch_deg);
   track.assumptions.emplace_back(
       "the log has no angles of a gimbal: the camera is taken to keep the pitch of --gimbal-pitch-deg, "
       "level, "

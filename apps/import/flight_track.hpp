@@ -22,8 +22,9 @@ struct FlightTrack {
   std::vector<AttitudeSample> attitudes;
   std::vector<PositionSample> positions;  ///< each with heights and a velocity
   std::vector<io::LoggedFix> fixes;
-  std::vector<io::LoggedGimbal> gimbal;  ///< each from north; empty: the camera is fixed in the vehicle
-  VehicleTime begin;                     ///< of the first sample of the vehicle's state
+  std::vector<io::LoggedGimbal> gimbal;          ///< as the log tells it
+  std::vector<io::LoggedGimbal> assumed_gimbal;  ///< where it tells none: level ones, each from north
+  VehicleTime begin;                             ///< of the first sample of the vehicle's state
   VehicleTime end;
   Duration utc_since_log{};  ///< what UTC is ahead of the log's clock
   bool is_utc_known = false;

@@ -30,12 +30,21 @@ std::optional<Eigen::Quaterniond> turn_at(const std::vector<Sample>& samples, Ve
 
 }  // namespace
 
-std::optional<CameraMount> gimbal_mount(const FlightTrack& track, const CameraMount& mount,
-                                        VehicleTime time) {
+std::optional<CameraMount> assumed_mount(const FlightTrack& track, const CameraMount& mount,
+                                         VehicleTime time) {
   const auto ned_from_vehicle = turn_at(track.attitudes, time);
-  const auto ned_from_gimbal = turn_at(track.gimbal, time);
+  const auto ned_from_gimbal = turn_at(track.assumed_gimbal, time);
   if (!ned_from_vehicle || !ned_from_gimbal) return std::nullopt;
   return mount.turned_to(ned_from_vehicle->conjugate() * *ned_from_gimbal);
+}
+
+CameraMount told_mount(const CameraMount& mount) {
+  if (mount.kind == MountKind::kGimbal) return mount;
+  CameraMount on_gimbal = CameraMount::on_gimbal();
+  on_gimbal.x_m = mount.x_m;
+  on_gimbal.y_m = mount.y_m;
+  on_gimbal.z_m = mount.z_m;
+  return on_gimbal;
 }
 
 }  // namespace geoloc::apps

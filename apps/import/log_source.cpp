@@ -9,6 +9,7 @@
 
 #include "geoloc/io/json/camera_file.hpp"
 #include "geoloc/io/logs/log_formats.hpp"
+#include "import/link_times.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -44,13 +45,8 @@ Parse parser_for(const std::filesystem::path& file) {
 LogSource as_it_is(const std::filesystem::path& file) {
   LogSource source;
   source.telemetry = io::read_tlog(file);
-  const auto& records = source.telemetry->records();
-  const auto [first, last] =
-      std::minmax_element(records.begin(), records.end(),
-                          [](const auto& a, const auto& b) { return a.received_at < b.received_at; });
-  source.begins_at = first->received_at;
-  source.times.begins_at = first->received_at;
-  source.times.length = last->received_at - first->received_at;
+  source.times = times_of(*source.telemetry);
+  source.begins_at = *source.times.begins_at;
   return source;
 }
 
@@ -60,8 +56,12 @@ LogTimes times_of(const io::FlightLog& log, const FlightTrack& track, bool is_su
   if (track.is_utc_known) times.begins_at = HostTime{track.begin.time_since_epoch() + track.utc_since_log};
   if (is_subtitled) times.begins_in_video = track.begin.time_since_epoch();
   for (const io::CameraEvent& event : log.camera_events) {
-    auto& list = event.kind == io::CameraEventKind::kVideoStart ? times.video_starts : times.exposures;
-    list.push_back(event.time - track.begin);
+    const Duration since_begin = event.time - track.begin;
+    if (event.kind == io::CameraEventKind::kVideoStart) {
+      add_start(times.video_starts, since_begin);
+    } else {
+      times.exposures.push_back(since_begin);
+    }
   }
   return times;
 }

@@ -45,6 +45,17 @@ std::string work_of(const VideoOptions& options, const io::DetectionConfig& conf
   return work;
 }
 
+/// A mount of kind gimbal without angles would locate nothing.
+void refuse_gimbal_without_angles(const CameraConfig& camera, const LogSource& log,
+                                  const VideoOptions& options) {
+  if (camera.mount.kind != MountKind::kGimbal || !log.track) return;
+  if (!log.track->gimbal.empty() || !log.track->assumed_gimbal.empty()) return;
+  throw std::runtime_error(fmt::format(
+      "{}: the mount is of kind gimbal, and {} has no angles of one: give --gimbal-pitch-deg, the "
+      "pitch that it held, or the mount of a camera that is fixed",
+      options.camera_file, options.log));
+}
+
 /// Everything that can be wrong before the first frame is looked at is found while this is made.
 struct VideoProgram {
   explicit VideoProgram(const VideoOptions& given)
@@ -53,6 +64,7 @@ struct VideoProgram {
         facts(video_facts(options.video)),
         camera(video_camera(options.camera_file, facts, log.focal_lengths, assumptions)),
         offset(find_offset({facts.file.created_at, facts.file.duration}, log.times, told_offset(options))) {
+    refuse_gimbal_without_angles(camera, log, options);
     source.labels = labels_in(options.labels_file);
     open_detector_unless_labelled(options.detector, options.tuning, source);
     const std::string work = source.detector ? work_of(options, source.config) : std::string{};
@@ -74,12 +86,11 @@ struct VideoProgram {
 void tell_begin(const VideoProgram& program) {
   if (program.log.track) tell_plan(program.log.track->notes, program.log.track->assumptions);
   tell_plan({}, program.assumptions);
-  tell(
-      fmt::format("the video begins {:.2f} s after the log's beginning, {}, to {:g} s (1 sigma): the joint "
-                  "method finds what "
-                  "is left, as latency{}",
-                  seconds(program.offset.after_log_begin), program.offset.how, program.offset.sigma_s,
-                  program.options.log_offset == "auto" ? " (--log-offset-s says another)" : ""));
+  tell(fmt::format(
+      "the video begins {:.2f} s after the log's beginning, {}, to {:g} s (1 sigma): what is left "
+      "is found with the objects, as a latency{}",
+      seconds(program.offset.after_log_begin), program.offset.how, program.offset.sigma_s,
+      program.options.log_offset == "auto" ? " (--log-offset-s says another)" : ""));
 }
 
 std::vector<VideoLook> looks_of(VideoProgram& program, const StopSignal& stop) {

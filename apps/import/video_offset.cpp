@@ -27,30 +27,37 @@ Duration by_creation(const VideoTimes& video, const LogTimes& log) {
   return *video.created_at + half - *log.begins_at;
 }
 
-/// The command that the video's creation time belongs to; of one command alone, that.
-std::optional<Duration> own_start(const VideoTimes& video, const LogTimes& log) {
+/// The start that the video's creation time belongs to; of one alone, that.
+std::optional<Duration> own_start(const VideoTimes& video, const LogTimes& log,
+                                  const std::vector<Duration>& starts) {
   constexpr Duration kMostApart = std::chrono::seconds{5};
-  if (log.video_starts.size() == 1) return log.video_starts.front();
+  if (starts.size() == 1) return starts.front();
   if (!video.created_at || !log.begins_at) return std::nullopt;
   const Duration created = by_creation(video, log);
   const auto apart = [&](Duration start) { return start < created ? created - start : start - created; };
-  const Duration nearest = *std::min_element(log.video_starts.begin(), log.video_starts.end(),
+  const Duration nearest = *std::min_element(starts.begin(), starts.end(),
                                              [&](Duration a, Duration b) { return apart(a) < apart(b); });
   return apart(nearest) <= kMostApart ? std::optional(nearest) : std::nullopt;
 }
 
-VideoOffset by_commands(const VideoTimes& video, const LogTimes& log) {
-  if (const auto start = own_start(video, log))
-    return {*start, kCommandSigma_s, "by the command to begin a video in the log"};
+/// `what` tells the starts, for people.
+Duration start_among(const std::vector<Duration>& starts, const char* what, const VideoTimes& video,
+                     const LogTimes& log) {
+  if (const auto start = own_start(video, log, starts)) return *start;
   throw std::runtime_error(
-      fmt::format("the log has {} commands to begin a video (the first ones {:.1f} and {:.1f} s after its "
-                  "beginning), and which one began this is not known: give it with --log-offset-s",
-                  log.video_starts.size(), seconds(log.video_starts[0]), seconds(log.video_starts[1])));
+      fmt::format("the log has {} {} (the first ones {:.1f} and {:.1f} s after its beginning), and which one "
+                  "began this is not known: give it with --log-offset-s",
+                  starts.size(), what, seconds(starts[0]), seconds(starts[1])));
 }
 
 VideoOffset automatic(const VideoTimes& video, const LogTimes& log) {
   if (log.begins_in_video) return {-*log.begins_in_video, kExactSigma_s, "by the subtitles, frame by frame"};
-  if (!log.video_starts.empty()) return by_commands(video, log);
+  if (!log.recordings.empty())
+    return {start_among(log.recordings, "recordings of videos", video, log), kExactSigma_s,
+            "by the camera's own status in the log"};
+  if (!log.video_starts.empty())
+    return {start_among(log.video_starts, "commands to begin a video", video, log), kCommandSigma_s,
+            "by the command to begin a video in the log"};
   if (log.exposures.size() == 1)
     return {log.exposures.front(), kCommandSigma_s, "by the only camera message in the log"};
   if (video.created_at && log.begins_at)
@@ -74,6 +81,13 @@ void refuse_without_overlap(const VideoTimes& video, const LogTimes& log, const 
 }
 
 }  // namespace
+
+void add_start(std::vector<Duration>& starts, Duration start) {
+  constexpr Duration kSame = std::chrono::seconds{3};
+  const bool is_repeated =
+      !starts.empty() && std::max(start, starts.back()) - std::min(start, starts.back()) < kSame;
+  if (!is_repeated) starts.push_back(start);
+}
 
 VideoOffset find_offset(const VideoTimes& video, const LogTimes& log, std::optional<Duration> told) {
   const VideoOffset offset =

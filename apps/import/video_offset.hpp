@@ -22,10 +22,15 @@ struct LogTimes {
   Duration length{};
   std::optional<HostTime> begins_at;  ///< UTC
   std::optional<Duration>
-      begins_in_video;                 ///< of a log that counts from the video's beginning: DJI's subtitles
-  std::vector<Duration> video_starts;  ///< commands to begin a recording, since the log's beginning
+      begins_in_video;               ///< of a log that counts from the video's beginning: DJI's subtitles
+  std::vector<Duration> recordings;  ///< beginnings of videos, as the camera tells, since the log's beginning
+  std::vector<Duration> video_starts;  ///< commands to begin one
   std::vector<Duration> exposures;     ///< of pictures
 };
+
+/// Adds the beginning of a video, in the order in which they are told. Within seconds of the last one it is
+/// the same, told again.
+void add_start(std::vector<Duration>& starts, Duration start);
 
 /// When the video's time 0 was.
 struct VideoOffset {

@@ -35,17 +35,20 @@ class TrackTeller {
     auto attitude = track_.attitudes.begin();
     auto position = track_.positions.begin();
     auto fix = track_.fixes.begin();
+    auto gimbal = track_.gimbal.begin();
     const auto is_due = [](auto it, const auto& list, VehicleTime before) {
       return it != list.end() && it->time <= before;
     };
     for (; attitude != track_.attitudes.end(); ++attitude) {
       for (; is_due(position, track_.positions, attitude->time); ++position) tell_position(*position);
       for (; is_due(fix, track_.fixes, attitude->time); ++fix) tell_fix(*fix);
+      for (; is_due(gimbal, track_.gimbal, attitude->time); ++gimbal) tell_gimbal(*gimbal);
       AttitudeSample sample = *attitude;
       sample.time = boot_time(attitude->time);
       add(attitude->time, state_.attitude(sample));
     }
     for (; position != track_.positions.end(); ++position) tell_position(*position);
+    for (; gimbal != track_.gimbal.end(); ++gimbal) tell_gimbal(*gimbal);
   }
 
  private:
@@ -79,6 +82,13 @@ class TrackTeller {
                                       fix.sigma_height_m}));
   }
 
+  void tell_gimbal(const io::LoggedGimbal& logged) {
+    if (logged.time < track_.begin) return;
+    const GimbalSample sample{boot_time(logged.time), ned_from_body(logged.angles), logged.yaw,
+                              logged.holds_direction};
+    add(logged.time, state_.gimbal(sample));
+  }
+
   const FlightTrack& track_;
   io::RecordingWriter& writer_;
   io::StateWriter state_;
@@ -97,7 +107,10 @@ void write_telemetry(const LogSource& log, io::RecordingWriter& writer) {
 
 std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& writer) {
   const LogSource& log = flight.log;
-  writer.write_camera(flight.camera);
+  CameraConfig camera = flight.camera;
+  if (log.track && !log.track->gimbal.empty()) camera.mount = told_mount(camera.mount);
+  if (log.track && !log.track->assumed_gimbal.empty()) camera.mount.kind = MountKind::kFixed;
+  writer.write_camera(camera);
   writer.write_config(settings_for(log, flight.offset).dump(2));
   write_telemetry(log, writer);
   std::size_t left_out = 0;
@@ -110,10 +123,9 @@ std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& w
     frame.detections = look.detections;
     frame.time_quality = "file";
     if (log.track)
-      frame.focal_px =
-          focal_px_at(log.focal_lengths, flight.camera.intrinsics, log.track->begin + since_log_begin);
-    if (log.track && !log.track->gimbal.empty()) {
-      frame.mount = gimbal_mount(*log.track, flight.camera.mount, log.track->begin + since_log_begin);
+      frame.focal_px = focal_px_at(log.focal_lengths, camera.intrinsics, log.track->begin + since_log_begin);
+    if (log.track && !log.track->assumed_gimbal.empty()) {
+      frame.mount = assumed_mount(*log.track, camera.mount, log.track->begin + since_log_begin);
       if (!frame.mount) {
         ++left_out;
         continue;

@@ -19,8 +19,8 @@ struct VideoFlight {
   const std::vector<VideoLook>& looks;
 };
 
-/// Writes camera, settings, telemetry and frames. Returns how many frames were left out since the gimbal's
-/// angles are not known then.
+/// Writes camera, settings, telemetry and frames. Returns how many frames were left out since how the camera
+/// looked cannot be assumed then.
 std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& writer);
 
 }  // namespace geoloc::apps

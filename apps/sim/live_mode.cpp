@@ -32,6 +32,17 @@ TimeSpan live_span(const RunSettings& settings, const Trajectory& truth) {
   return span;
 }
 
+/// Where the simulators of the autopilots send to.
+std::string peer(const RunOptions& run, const LiveOptions& options) {
+  if (!options.udp.empty()) return options.udp;
+  return run.autopilot == "px4" ? "127.0.0.1:14540" : "127.0.0.1:14550";
+}
+
+AutopilotManners manners(const RunOptions& run) {
+  if (!is_px4(run)) return ardupilot_manners();
+  return run.autopilot == "px4" ? px4_onboard_manners() : px4_ground_manners();
+}
+
 /// All that a live run is made of; members are in the order in which they depend on each other.
 struct LiveRun {
   LiveRun(const RunOptions& run, const LiveOptions& options, std::uint64_t seed)
@@ -39,7 +50,9 @@ struct LiveRun {
         flight(with_moving_camera(load_flight(run), run, settings)),
         targets_in_enu(make_targets(settings)),
         flight_clock(live_span(settings, flight.truth), options.speed),
-        vehicle(flight, {io::parse_udp_endpoint(options.udp), options.link, seed, options.reboot_at_s},
+        vehicle(flight,
+                {io::parse_udp_endpoint(peer(run, options)), manners(run), options.link, seed,
+                 options.reboot_at_s},
                 flight_clock, host_clock),
         camera(flight, settings, flight_clock, make_run_scene(targets_in_enu, options.distractors, seed)),
         server({options.rtsp_port, settings.camera.intrinsics.width_px, settings.camera.intrinsics.height_px,
@@ -84,7 +97,7 @@ class Starter {
   Starter(double wait_s, HostTime now) : wait_s_(wait_s), began_at_(now), last_unready_at_(now) {}
 
   void update(LiveRun& run, HostTime now) {
-    const bool is_ready = run.server.is_watched() && run.vehicle.was_asked_for_messages();
+    const bool is_ready = run.server.is_watched() && run.vehicle.has_listener();
     if (!is_ready) last_unready_at_ = now;
     const bool has_settled = seconds(now - last_unready_at_) >= kSettling_s;
     if (has_settled || seconds(now - began_at_) >= wait_s_) run.flight_clock.release(now);
@@ -132,15 +145,15 @@ class VehicleThread {
   std::thread thread_;
 };
 
-void print_start(const LiveRun& run, const LiveOptions& options) {
+void print_start(const LiveRun& run, const LiveOptions& options, const std::string& udp) {
   std::fprintf(stderr,
                "geoloc_sim: flight %s, scenario %d, seed %llu, speed %g\n"
                "  video     %s\n"
                "  MAVLink   to udp %s\n"
-               "waiting up to %g s for a viewer and for someone who asks for messages\n",
+               "waiting up to %g s for a viewer and for someone who listens to MAVLink\n",
                run.flight.name.c_str(), run.settings.scenario,
                static_cast<unsigned long long>(run.settings.seed), options.speed, run.server.url().c_str(),
-               options.udp.c_str(), options.wait_s);
+               udp.c_str(), options.wait_s);
 }
 
 void check(const LiveOptions& options) {
@@ -172,7 +185,7 @@ int run_live_mode(const RunOptions& options, const LiveOptions& live, std::uint6
     std::fprintf(stderr, "geoloc_sim: %s\n", error.what());
     return 2;
   }
-  print_start(*run, live);
+  print_start(*run, live, peer(options, live));
   const VehicleThread vehicle(run->vehicle);
   film(*run, live.wait_s, stop);
   std::fputs(stop.is_requested() ? "geoloc_sim: interrupted\n" : "geoloc_sim: the flight is over\n", stderr);

@@ -10,7 +10,9 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   const auto add = [&program](const char* group, const char* name, auto& value, const char* help) {
     return program.add_option(name, value, help)->group(group);
   };
-  add(kLiveGroup, "--udp", options.udp, "Send MAVLink to this HOST:PORT")->capture_default_str();
+  add(kLiveGroup, "--udp", options.udp,
+      "Send MAVLink to this HOST:PORT [127.0.0.1:14550; of --autopilot px4, 127.0.0.1:14540]")
+      ->type_name("HOST:PORT");
   add(kLiveGroup, "--rtsp-port", options.rtsp_port,
       "Serve video at rtsp://127.0.0.1:PORT/cam; 0: any free port")
       ->check(apps::whole_number())

@@ -12,7 +12,7 @@ namespace geoloc::sim {
 
 /// What live runs are chosen by, beside RunOptions.
 struct LiveOptions {
-  std::string udp = "127.0.0.1:14550";
+  std::string udp;  ///< HOST:PORT; empty: this computer's port of the autopilot
   std::uint16_t rtsp_port = 8554;
   double speed = 1.0;
   double wait_s = 60.0;

@@ -7,6 +7,7 @@
 
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
+#include "geoloc/sim/live/px4_flight.hpp"
 #include "geoloc/sim/live/state_jumps.hpp"
 #include "geoloc/sim/live/zoom_flight.hpp"
 #include "sim/option_groups.hpp"
@@ -43,6 +44,12 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kFlightGroup, "--flight", options.flight, "Name of the flight; an unknown one lists them")
       ->capture_default_str();
   add(kFlightGroup, "--data-dir", options.data_folder, "Folder of the flights [found beside the program]");
+  add(kFlightGroup, "--autopilot", options.autopilot,
+      "Whose messages, and live whose manners: ardupilot, px4 on its link to an onboard computer, or "
+      "px4-ground, "
+      "to a ground station")
+      ->check(CLI::IsMember({"ardupilot", "px4", "px4-ground"}))
+      ->capture_default_str();
   CLI::Option* const scenario =
       add(kFlightGroup, "--scenario", settings.scenario, "Targets: 1 spread, 2 tight clusters, 3 grid")
           ->capture_default_str();
@@ -107,12 +114,17 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed) {
   return settings;
 }
 
+bool is_px4(const RunOptions& options) {
+  return options.autopilot != "ardupilot";
+}
+
 Flight load_flight(const RunOptions& options) {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
   Flight flight = load_flight(find_flights(options.data_folder, program), options.flight);
   if (options.raised_m != 0.0) flight = raised(flight, options.raised_m);
   if (options.telemetry_rate_hz) flight = at_telemetry_rate(flight, *options.telemetry_rate_hz);
   if (!options.jump.empty()) flight = with_jump(flight, state_jump(options.jump, flight.truth));
+  if (is_px4(options)) flight = as_px4(flight);
   return flight;
 }
 

@@ -14,6 +14,7 @@ namespace geoloc::sim {
 /// What recordings and live runs are chosen by.
 struct RunOptions {
   std::string flight = "stock_path1";
+  std::string autopilot = "ardupilot";
   std::optional<std::string> data_folder;
   double raised_m = 0.0;
   std::string jump;  ///< its name; empty: none
@@ -33,6 +34,9 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed);
 
 /// Throws std::runtime_error that says where flights were looked for, or which there are.
 Flight load_flight(const RunOptions& options);
+
+/// Whether the vehicle is PX4, on whichever of its links.
+bool is_px4(const RunOptions& options);
 
 /// The flight with the gimbal and the zoom that are asked for, and their errors by the run's seed.
 Flight with_moving_camera(Flight flight, const RunOptions& options, const RunSettings& settings);

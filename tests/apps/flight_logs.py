@@ -4,7 +4,7 @@ import datetime
 import math
 import struct
 
-HEARTBEAT, GPS, ATTITUDE, POSITION = 0, 24, 30, 33
+HEARTBEAT, GPS, ATTITUDE, POSITION, MOUNT, GIMBAL = 0, 24, 30, 33, 265, 285
 GPS_EPOCH_S, LEAP_SECONDS = 315964800, 18
 
 
@@ -21,7 +21,7 @@ class Flight:
     """States of a vehicle by its own clock, and what UTC is ahead of that."""
 
     def __init__(self, tlog):
-        self.attitudes, self.positions, self.fixes = [], [], []
+        self.attitudes, self.positions, self.fixes, self.gimbal = [], [], [], []
         for stamp_us, number, payload in read_tlog(tlog):
             if number == ATTITUDE:
                 boot_ms, roll, pitch, yaw = struct.unpack_from("<Ifff", payload)
@@ -35,6 +35,9 @@ class Flight:
                 boot_us, lat, lon, alt = struct.unpack_from("<Qiii", payload)
                 h_acc_mm, v_acc_mm = struct.unpack_from("<II", payload, 34)
                 self.fixes.append((boot_us, lat / 1e7, lon / 1e7, alt / 1e3, payload[28], h_acc_mm / 1e3, v_acc_mm / 1e3))
+            elif number == GIMBAL:
+                boot_ms, *turn = struct.unpack_from("<I4f", payload)
+                self.gimbal.append((boot_ms * 1000, *map(math.degrees, euler_angles(*turn))))
 
     def begin_us(self):
         return min(self.attitudes[0][0], self.positions[0][0])
@@ -124,6 +127,12 @@ def quaternion(roll, pitch, yaw):
             cr * cp * sy - sr * sp * cy)
 
 
+def euler_angles(w, x, y, z):
+    """Roll, pitch, yaw of such a turn."""
+    return (math.atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)), math.asin(max(-1, min(1, 2 * (w * y - z * x)))),
+            math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+
+
 def to_ulog(flight, video_starts_us=(), gimbal=()):
     """As PX4 1.14 writes it; heights count from the sea, and home tells its own."""
     log = Ulog(flight.begin_us())
@@ -174,7 +183,7 @@ def clock(duration_s):
     return f"{whole_ms // 3600000:02}:{whole_ms // 60000 % 60:02}:{whole_ms // 1000 % 60:02},{whole_ms % 1000:03}"
 
 
-def to_srt(flight, frames_us, gimbal_deg=None):
+def to_srt(flight, frames_us, gimbal_deg=None, focal_35mm_mm=24):
     """As DJI's newer models write it, one subtitle a frame: what was when it was exposed. frames_us are times of the
     vehicle's clock. `gimbal_deg` tells roll, pitch, yaw of the camera at a time."""
     blocks = []
@@ -188,7 +197,7 @@ def to_srt(flight, frames_us, gimbal_deg=None):
             gimbal = f" [gb_yaw: {yaw:.1f} gb_pitch: {pitch:.1f} gb_roll: {roll:.1f}]"
         blocks.append(f"{number}\n{clock(begin_s)} --> {clock(begin_s + 0.1)}\n<font size=\"28\">FrameCnt: {number}, "
                       f"DiffTime: 100ms\n{date:%Y-%m-%d %H:%M:%S}.{date.microsecond // 1000:03}\n[iso: 100] "
-                      f"[focal_len: 24.00] [latitude: {lat:.6f}] [longitude: {lon:.6f}] [rel_alt: {above_home:.3f} "
+                      f"[focal_len: {focal_35mm_mm:.2f}] [latitude: {lat:.6f}] [longitude: {lon:.6f}] [rel_alt: {above_home:.3f} "
                       f"abs_alt: {alt:.3f}]{gimbal} </font>\n")
     return "\n".join(blocks)
 

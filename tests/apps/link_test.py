@@ -21,20 +21,20 @@ class Speaker:
     """A system that sends messages from a port of its own."""
 
     def __init__(self, port, system=1, key=None, stamp=None):
-        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-        self._socket.connect(("127.0.0.1", port))
-        self._socket.settimeout(0.2)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.connect(("127.0.0.1", port))
+        self.socket.settimeout(0.2)
         self.sent = []
-        self._mav = mavlink.MAVLink(self, srcSystem=system, srcComponent=1)
-        self._mav.robust_parsing = True  # what is not valid is BAD_DATA
-        self._began = time.monotonic()
+        self.mav = mavlink.MAVLink(self, srcSystem=system, srcComponent=1)
+        self.mav.robust_parsing = True  # what is not valid is BAD_DATA
+        self.began = time.monotonic()
         if key:
-            signing = self._mav.signing
+            signing = self.mav.signing
             signing.secret_key, signing.sign_outgoing, signing.timestamp = key, True, stamp
 
     def check_by(self, key):
         """What comes is valid to it if it is signed by that key."""
-        self._mav.signing.secret_key = key
+        self.mav.signing.secret_key = key
 
     def write(self, frame):
         """What pymavlink calls with each frame."""
@@ -43,21 +43,21 @@ class Speaker:
 
     def send(self, datagram):
         try:
-            self._socket.send(datagram)
+            self.socket.send(datagram)
         except ConnectionRefusedError:  # the program is not up yet, or down
             pass
 
     def heartbeat(self):
-        self._mav.heartbeat_send(mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA, 0, 0, 0)
+        self.mav.heartbeat_send(mavlink.MAV_TYPE_QUADROTOR, mavlink.MAV_AUTOPILOT_ARDUPILOTMEGA, 0, 0, 0)
 
     def state(self, latitude=LATITUDE, longitude=LONGITUDE):
-        boot_ms = int(1e3 * (time.monotonic() - self._began)) + 100_000
-        self._mav.attitude_send(boot_ms, 0, 0, 0, 0, 0, 0)
-        self._mav.global_position_int_send(boot_ms, int(1e7 * latitude), int(1e7 * longitude), 30_000, 20_000, 0, 0, 0, 0)
+        boot_ms = int(1e3 * (time.monotonic() - self.began)) + 100_000
+        self.mav.attitude_send(boot_ms, 0, 0, 0, 0, 0, 0)
+        self.mav.global_position_int_send(boot_ms, int(1e7 * latitude), int(1e7 * longitude), 30_000, 20_000, 0, 0, 0, 0)
 
     def timesync_answer(self):
         now_us = time.time_ns() // 1000
-        self._mav.timesync_send(10**15, 1000 * now_us + 191)
+        self.mav.timesync_send(10**15, 1000 * now_us + 191)
 
     def hear(self, patience_s=2, until=None):
         """(type, sender) of the messages that came, each of which pymavlink took for valid."""
@@ -65,16 +65,16 @@ class Speaker:
         deadline = time.monotonic() + patience_s
         while time.monotonic() < deadline and until not in heard:
             try:
-                datagram = self._socket.recv(2048)
+                datagram = self.socket.recv(2048)
             except (TimeoutError, ConnectionRefusedError):
                 continue
-            for message in self._mav.parse_buffer(datagram) or []:
+            for message in self.mav.parse_buffer(datagram) or []:
                 if message.get_type() != "BAD_DATA":
                     heard.add((message.get_type(), (message.get_srcSystem(), message.get_srcComponent())))
         return heard
 
     def close(self):
-        self._socket.close()
+        self.socket.close()
 
 
 class Link(AppTest):

@@ -6,12 +6,14 @@ import math
 import os
 import pathlib
 import re
+import shutil
 import struct
 import tempfile
 import unittest
 
 import numpy
-from flight_logs import ATTITUDE, GPS, POSITION, Flight, Ulog, read_tlog, to_dataflash, to_ulog
+from flight_logs import ATTITUDE, GPS, MOUNT, POSITION, Flight, Ulog, read_tlog, to_dataflash, to_ulog
+from pymavlink.dialects.v20 import ardupilotmega as mavlink
 from pymavlink.DFReader import DFReader_binary
 from pyulog import ULog
 from support import SOURCE, AppTest, run
@@ -66,7 +68,7 @@ class LogOracles(AppTest):
         result = run("geoloc_import", "video", self.sim / "video.mkv", "--camera", self.sim / "camera.json", "--log", log,
                      "--labels", labels, "--out", recording, *arguments)
         self.assertEqual(result.status, 0, result.err)
-        forms = {ATTITUDE: "Ifff", POSITION: "Iiiii", GPS: "QiiiHHHHBBiII"}
+        forms = {ATTITUDE: "Ifff", POSITION: "Iiiii", GPS: "QiiiHHHHBBiII", MOUNT: "Iffff"}
         messages, first_us = {number: [] for number in forms}, None
         for stamp_us, number, payload in read_tlog(recording / "telemetry.tlog"):
             first_us = stamp_us if first_us is None else first_us
@@ -170,7 +172,7 @@ class LogOracles(AppTest):
 
     def assert_subtitles(self, file):
         number = r"\s*:\s*([-+]?[\d.]+)"
-        places = {}
+        places, gimbal = {}, {}
         for block in re.split(r"\n\s*\n", file.read_text()):
             begin = re.search(r"(\d+):(\d+):(\d+)[,.](\d+) -->", block)
             if not begin:
@@ -183,7 +185,8 @@ class LogOracles(AppTest):
             else:
                 places[time_us] = tuple(float(re.search(key + number, block)[1]) for key in
                                         ("latitude", "longitude", "rel_alt", "abs_alt"))
-            pitch = re.search("gb_pitch" + number, block)
+            if "gb_pitch" in block:
+                gimbal[time_us] = tuple(float(re.search(key + number, block)[1]) for key in ("gb_roll", "gb_pitch", "gb_yaw"))
         begin_us = min(places)
         messages = self.import_log(file)
         self.assertGreater(len(messages[POSITION]), 0)
@@ -193,8 +196,67 @@ class LogOracles(AppTest):
             self.assertAlmostEqual(above_home_mm, above_home_m * 1e3, delta=0.6)
             if alt_m is not None:
                 self.assertAlmostEqual(alt_mm, alt_m * 1e3, delta=0.6)
+        self.assertEqual(len(messages[MOUNT]), len(gimbal))
+        for time, roll_deg, pitch_deg, yaw_deg, from_north_deg in messages[MOUNT]:
+            self.assertTrue(math.isnan(yaw_deg))
+            for found, wanted in zip((roll_deg, pitch_deg, from_north_deg), gimbal[time + begin_us]):
+                self.assertAlmostEqual(found, wanted, places=4)
         for frame in self.frames:
-            self.assertAlmostEqual(frame["mount"]["pitch_deg"], float(pitch[1]) if pitch else -90, places=4)
+            if gimbal:
+                self.assertNotIn("mount", frame)
+            else:
+                self.assertAlmostEqual(frame["mount"]["pitch_deg"], -90, places=4)
+
+
+class CameraMessages(AppTest):
+    """What a ground station's log tells of the camera is when the video began; messages by pymavlink."""
+
+    @classmethod
+    def setUpClass(cls):
+        LogOracles.setUpClass.__func__(cls)
+
+    def told(self, *messages):
+        """What an import says of when the video began; (s after the log's beginning, message) of each message."""
+        records = [(stamp_us, record) for stamp_us, record in self.records()]
+        begin_us, mav = records[0][0], mavlink.MAVLink(None, srcSystem=1, srcComponent=100)
+        records += [(begin_us + round(1e6 * at_s), message.pack(mav)) for at_s, message in messages]
+        log, recording = self.folder / "flight.tlog", self.folder / "recording"
+        log.write_bytes(b"".join(struct.pack(">Q", stamp_us) + frame for stamp_us, frame in sorted(records)))
+        labels = self.write("labels.csv", "picture,u,v\n0,1,1\n")
+        result = run("geoloc_import", "video", self.sim / "video.mkv", "--camera", self.sim / "camera.json", "--log", log,
+                     "--labels", labels, "--out", recording)
+        self.assertEqual(result.status, 0, result.err)
+        shutil.rmtree(recording)
+        return re.search(r"begins ([\d.-]+) s after the log's beginning, (.*), to", result.err).groups()
+
+    def records(self):
+        log, at = (self.sim / "telemetry.tlog").read_bytes(), 0
+        while at < len(log):
+            size = 12 + log[at + 9]
+            yield struct.unpack_from(">Q", log, at)[0], log[at + 8:at + 8 + size]
+            at += 8 + size
+
+    def test_messages_of_cameras_tell_when_the_video_began(self):
+        start = mavlink.MAVLink_command_long_message(1, 100, mavlink.MAV_CMD_VIDEO_START_CAPTURE, 0, 0, 0, 0, 0, 0, 0, 0)
+        stop = mavlink.MAVLink_command_long_message(1, 100, mavlink.MAV_CMD_VIDEO_STOP_CAPTURE, 0, 0, 0, 0, 0, 0, 0, 0)
+        self.assertEqual(self.told((2, start), (2.5, start), (9, stop)), ("2.00", "by the command to begin a video in the log"))
+
+        def status(runs, recorded_ms):
+            return mavlink.MAVLink_camera_capture_status_message(0, 0, runs, 0, recorded_ms, 1000)
+
+        by_status = ("1.50", "by the camera's own status in the log")
+        self.assertEqual(self.told((1, start), (1, status(0, 0)), (3, status(1, 1500)), (8, status(1, 6490))), by_status)
+
+        def picture(number):
+            return mavlink.MAVLink_camera_image_captured_message(0, 0, 1, 0, 0, 0, 0, [1, 0, 0, 0], number, 1, b"")
+
+        feedback = mavlink.MAVLink_camera_feedback_message(0, 1, 1, 7, 0, 0, 0, 0, 0, 0, 0, 0, 0)
+        trigger = mavlink.MAVLink_camera_trigger_message(0, 7)
+        by_picture = "by the only camera message in the log"
+        self.assertEqual(self.told((2, trigger)), ("2.00", by_picture))
+        self.assertEqual(self.told((2, trigger), (2.2, picture(1)), (3, picture(1))), ("2.20", by_picture))
+        self.assertEqual(self.told((2, trigger), (2.2, picture(1)), (2.3, feedback)), ("2.30", by_picture))
+        self.assertEqual(self.told((2, picture(1)), (4, picture(2)))[1], "by the video's creation time")
 
 
 if __name__ == "__main__":

@@ -3,10 +3,11 @@ import json
 import math
 import pathlib
 import re
+import struct
 import tempfile
 import unittest
 
-from flight_logs import Flight, at, to_dataflash, to_srt, to_table, to_ulog
+from flight_logs import GIMBAL, MOUNT, Flight, at, euler_angles, read_tlog, to_dataflash, to_srt, to_table, to_ulog
 from support import AppTest, Live, rmse_m, run
 
 LATENCY_US = 120_000  # what geoloc_sim's stamps are late by
@@ -193,6 +194,15 @@ class VideosAndLogsThatDoNotFit(VideoTest):
         other = self.log("camera.json", json.dumps({**camera, "width": 1920, "height": 1080}))
         self.refuse(self.sim / "telemetry.tlog", "1920 x 1080, and the video's are 1280 x 720", camera=other)
 
+    def test_a_gimbal_of_which_the_log_tells_nothing(self):
+        log = self.log("flight.BIN", to_dataflash(self.flight, [self.stamps_us[0]]))
+        camera = self.log("camera.json", json.dumps({**json.loads(self.camera.read_text()), "mount": {"kind": "gimbal"}}))
+        self.refuse(log, "camera.json: the mount is of kind gimbal", "--gimbal-pitch-deg", camera=camera)
+        result = self.import_video(log, "--labels", self.labels(), "--gimbal-pitch-deg", -60, camera=camera)
+        self.assertEqual(result.status, 0, result.err)
+        self.assertEqual(json.loads((self.recording / "camera.json").read_text())["mount"]["kind"], "fixed")
+        self.assertEqual(len([frame for frame in frames_of(self.recording) if "mount" in frame]), len(self.stamps_us))
+
     def test_labels_that_name_no_frame(self):
         for lines, reason in (("a.jpg,1,2", "names no frame"), ("999,1,2", "none of its frames is in")):
             labels = self.log("wrong.csv", f"picture,u,v\n{lines}\n")
@@ -222,17 +232,47 @@ class VideosAndLogsThatDoNotFit(VideoTest):
             roll, pitch, _ = at(self.flight.attitudes, frame["time_us"] - self.flight.utc_us)
             self.assertAlmostEqual(frame["mount"]["pitch_deg"], -60 - math.degrees(pitch), delta=0.5 + abs(math.degrees(roll)))
 
-    def test_angles_of_the_logs_gimbal_are_the_cameras(self):
+    def test_angles_of_the_logs_gimbal_are_in_the_telemetry(self):
         gimbal = [(time, 0, -45, math.degrees(yaw)) for time, _, _, yaw in self.flight.attitudes]
-        for name, write in (("a.BIN", to_dataflash), ("a.ulg", to_ulog)):
+        for name, write, number in (("a.BIN", to_dataflash, MOUNT), ("a.ulg", to_ulog, GIMBAL)):
             with self.subTest(log=name):
                 log = self.log(name, write(self.flight, [self.stamps_us[0]], gimbal))
                 self.imported(log, "--labels", self.labels())
-                mounts = [frame["mount"] for frame in frames_of(self.recording)]
-                self.assertEqual(len(mounts), len(self.stamps_us))
-                for mount in mounts:
-                    self.assertLess(abs(mount["pitch_deg"] + 45), 12)  # the vehicle's tilt
-                    self.assertLess(abs(mount["yaw_deg"]), 12)
+                self.assertFalse(any("mount" in frame for frame in frames_of(self.recording)))
+                mount = json.loads((self.recording / "camera.json").read_text())["mount"]
+                self.assertEqual((mount["kind"], mount["pitch_deg"]), ("gimbal", 0))
+                told = [payload for _, kind, payload in read_tlog(self.recording / "telemetry.tlog") if kind == number]
+                self.assertEqual(len(told), len(gimbal))
+                for payload, (_, _, pitch_deg, yaw_deg) in zip(told, gimbal):
+                    found = self.angles_deg(number, payload)
+                    self.assertAlmostEqual(found[0], pitch_deg, places=3)
+                    self.assertLess(abs(math.remainder(found[1] - yaw_deg, 360)), 0.001)
+                self.recording.rename(self.folder / f"done-{name}")
+
+    @staticmethod
+    def angles_deg(number, payload):
+        """Pitch and yaw, from north."""
+        if number == GIMBAL:
+            return [math.degrees(angle) for angle in euler_angles(*struct.unpack_from("<4f", payload, 4))[1:]]
+        _, _, pitch_deg, yaw_deg = struct.unpack_from("<I3f", payload)
+        yaw_absolute_deg, = struct.unpack_from("<f", payload, 16)
+        return pitch_deg, yaw_absolute_deg if math.isnan(yaw_deg) else math.nan
+
+
+class ImportedGimbals(VideoTest):
+    """A gimbal's angles in a log are worth what they were live."""
+    SPAN = ("--frame-rate", 2, "--start-s", 70, "--end-s", 130, "--gimbal", "sweep", "--gimbal-told-yaw", "north")
+
+    def test_each_log_is_as_good_as_the_flights_own(self):
+        live_found, live_error_m, _ = self.score(self.sim)
+        logs = {"a.BIN": to_dataflash(self.flight, [self.stamps_us[0]], self.flight.gimbal),
+                "a.ulg": to_ulog(self.flight, [self.stamps_us[0]], self.flight.gimbal)}
+        for name, content in logs.items():
+            with self.subTest(log=name):
+                self.imported(self.log(name, content), "--labels", self.labels())
+                found, error_m, said = self.score(self.recording)
+                self.assertEqual(found, live_found, said)
+                self.assertLessEqual(error_m, 1.1 * live_error_m + 0.0005, said)
                 self.recording.rename(self.folder / f"done-{name}")
 
 

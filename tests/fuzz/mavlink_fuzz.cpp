@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geoloc/io/mavlink/camera_component.hpp"
+#include "geoloc/io/mavlink/camera_news.hpp"
 #include "geoloc/io/mavlink/link_guard.hpp"
 #include "geoloc/io/mavlink/message_table.hpp"
 #include "geoloc/io/mavlink/vehicle_link.hpp"
@@ -33,7 +34,8 @@ class DistrustfulSink : public io::TelemetrySink {
   void on_position(const PositionSample& sample) override {
     require(is_valid(sample.position));
     require(std::isfinite(sample.height_above_home_m + *sample.height_msl_m));
-    require(!sample.sigma_horizontal_m || *sample.sigma_horizontal_m > 0.0);
+    require(!sample.sigma_horizontal_m ||
+            (*sample.sigma_horizontal_m > 0.0 && std::isfinite(*sample.sigma_horizontal_m)));
     require(sample.time.time_since_epoch() >= 0ns);
   }
   void on_range(const RangeSample& sample) override {
@@ -53,7 +55,15 @@ class DistrustfulSink : public io::TelemetrySink {
   void on_clock_step(Duration) override {}
   void on_frame(HostTime, const std::uint8_t* frame, std::size_t size) override {
     require(size >= 8 && size <= 280 && (frame[0] == 0xFD || frame[0] == 0xFE));
+    parser_.append(frame, size);
+    while (const auto found = parser_.next()) {
+      const auto news = io::decode_camera_news(*found);
+      require(!news || (news->ago >= 0ns && news->ago <= 24h));
+    }
   }
+
+ private:
+  io::FrameParser parser_;
 };
 
 using Bytes = std::vector<std::uint8_t>;
@@ -87,7 +97,8 @@ Bytes checksummed_frame(std::uint16_t message_id, const std::uint8_t* payload, s
 
 /// Reads the input as a list of messages (which one, payload size, payload) and frames them.
 Bytes framed(const std::uint8_t* data, std::size_t size) {
-  constexpr std::uint16_t kDecoded[] = {0, 2, 24, 30, 31, 33, 76, 77, 111, 158, 193, 230, 265, 285, 260, 271};
+  constexpr std::uint16_t kDecoded[] = {0,   2,   24,  30,  31,  33,  76,  77,  111, 112,
+                                        158, 180, 193, 230, 260, 262, 263, 265, 271, 285};
   constexpr std::uint8_t kGimbal = 154, kCamera = 100;
   Bytes stream = checksummed_frame(0, reinterpret_cast<const std::uint8_t*>("\0\0\0\0\2\3\0\4\3"), 9);
   for (std::size_t at = 0; at + 2 <= size;) {

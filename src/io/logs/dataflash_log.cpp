@@ -155,21 +155,13 @@ class DataflashCollector {
       log_.home_height_msl_m = first_of(record, {"Alt"});
     } else if (name == "CAM" || (name == "TRIG" && !has_feedback_)) {
       // A camera with feedback has each picture in both; what was triggered before the first one counts less.
-      if (name == "CAM" && !std::exchange(has_feedback_, true)) drop_exposures();
+      if (name == "CAM" && !std::exchange(has_feedback_, true)) drop_exposures(log_);
       keep(log_.camera_events, {time, CameraEventKind::kExposure});
     } else if (name == "MAVC" && first_of(record, {"Cmd"}) == kVideoStartCommand) {
       keep(log_.camera_events, {time, CameraEventKind::kVideoStart});
     } else if (name == "MNT" && is_first_instance(record)) {
       take_gimbal(record, time);
     }
-  }
-
-  void drop_exposures() {
-    auto& events = log_.camera_events;
-    const auto is_exposure = [](const CameraEvent& event) {
-      return event.kind == CameraEventKind::kExposure;
-    };
-    events.erase(std::remove_if(events.begin(), events.end(), is_exposure), events.end());
   }
 
   void take_gimbal(const DataflashRecord& record, VehicleTime time) {

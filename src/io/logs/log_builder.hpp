@@ -64,6 +64,13 @@ inline void take_positions_of_fixes(FlightLog& log) {
   log.assumptions.emplace_back("the log has no filtered positions: they are the receiver's own");
 }
 
+/// Forgets the pictures; the videos that were begun stay.
+inline void drop_exposures(FlightLog& log) {
+  auto& events = log.camera_events;
+  const auto is_exposure = [](const CameraEvent& event) { return event.kind == CameraEventKind::kExposure; };
+  events.erase(std::remove_if(events.begin(), events.end(), is_exposure), events.end());
+}
+
 /// The last thing that each reader does.
 inline void finish(FlightLog& log) {
   take_positions_of_fixes(log);

@@ -150,12 +150,14 @@ class UlogCollector {
     if (topic == "home_position") {
       if (!log_.home_height_msl_m && sample.number("valid_alt") != 0.0)
         log_.home_height_msl_m = finite(sample, "alt");
-    } else if (topic == "camera_capture" || topic == "camera_trigger") {
+    } else if (topic == "camera_capture" || (topic == "camera_trigger" && !has_captures_)) {
+      // A picture that was triggered and then taken is in both.
+      if (topic == "camera_capture" && !std::exchange(has_captures_, true)) drop_exposures(log_);
       keep(log_.camera_events, {time, CameraEventKind::kExposure});
     } else if (topic == "vehicle_command") {
       if (sample.number("command") == kVideoStartCommand)
         keep(log_.camera_events, {time, CameraEventKind::kVideoStart});
-    } else {
+    } else if (topic == "gimbal_device_attitude_status" || topic == "mount_orientation") {
       take_gimbal(sample, time);
     }
   }
@@ -175,12 +177,14 @@ class UlogCollector {
     const bool is_from_north = (flags & (kInVehicleFrame | kInEarthFrame)) != 0 ? (flags & kInEarthFrame) != 0
                                                                                 : (flags & kYawLock) != 0;
     if (angles)
-      keep(log_.gimbal, {time, *angles, is_from_north ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose});
+      keep(log_.gimbal, {time, *angles, is_from_north ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose,
+                         (flags & kYawLock) != 0});
   }
 
   FlightLog log_;
   std::vector<LoggedPosition> local_positions_;
   std::vector<LoggedFix> sensor_fixes_;
+  bool has_captures_ = false;
 };
 
 }  // namespace

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "geoloc/geometry/angles.hpp"
+#include "unpack.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -16,17 +16,6 @@ namespace {
 constexpr double kLargestTurn_rad = 6.2832;  // for angles that may be given as 0..2 pi
 constexpr double kLargestPitch_rad = 1.5709;
 constexpr double kLargestHeight_m = 100e3;
-
-/// Decodes with the generated decoders, which pad short payloads.
-template <typename Fields>
-Fields unpack(const Frame& frame, void (*decode_fields)(const mavlink_message_t*, Fields*)) {
-  mavlink_message_t message{};
-  message.len = static_cast<std::uint8_t>(frame.payload_size);
-  std::memcpy(message.payload64, frame.payload, frame.payload_size);
-  Fields fields{};
-  decode_fields(&message, &fields);
-  return fields;
-}
 
 VehicleTime boot_time(std::uint32_t time_boot_ms) {
   return VehicleTime{std::chrono::milliseconds{time_boot_ms}};
@@ -187,8 +176,19 @@ Message decode_gnss_status(const Frame& frame) {
   return status;
 }
 
-Message estimator_status(std::uint16_t flags, int glitch_flag) {
-  return EstimatorStatus{flags, (flags & glitch_flag) != 0};
+Message decode_ekf_status(const Frame& frame) {
+  const std::uint16_t flags = unpack(frame, mavlink_msg_ekf_status_report_decode).flags;
+  return EstimatorStatus{flags, (flags & EKF_GPS_GLITCHING) != 0, std::nullopt};
+}
+
+Message decode_estimator_status(const Frame& frame) {
+  const auto fields = unpack(frame, mavlink_msg_estimator_status_decode);
+  EstimatorStatus status{fields.flags, (fields.flags & ESTIMATOR_GPS_GLITCH) != 0, std::nullopt};
+  const double accuracy_m = fields.pos_horiz_accuracy;
+  // Without an absolute position it is one against the place where the filter began.
+  if (status.has_absolute_position() && accuracy_m > 0.0 && std::isfinite(accuracy_m))
+    status.sigma_horizontal_m = accuracy_m;
+  return status;
 }
 
 Message decode_timesync(const Frame& frame) {
@@ -224,6 +224,10 @@ bool Heartbeat::is_from_camera() const {
   return vehicle_type == MAV_TYPE_CAMERA;
 }
 
+bool Heartbeat::is_from_px4() const {
+  return autopilot == MAV_AUTOPILOT_PX4;
+}
+
 bool EstimatorStatus::has_absolute_position() const {
   static_assert(static_cast<int>(EKF_POS_HORIZ_ABS) == static_cast<int>(ESTIMATOR_POS_HORIZ_ABS));
   return (flags & EKF_POS_HORIZ_ABS) != 0;
@@ -256,9 +260,9 @@ Message decode(const Frame& frame) {
     case MAVLINK_MSG_ID_GPS_RAW_INT:
       return decode_gnss_status(frame);
     case MAVLINK_MSG_ID_EKF_STATUS_REPORT:
-      return estimator_status(unpack(frame, mavlink_msg_ekf_status_report_decode).flags, EKF_GPS_GLITCHING);
+      return decode_ekf_status(frame);
     case MAVLINK_MSG_ID_ESTIMATOR_STATUS:
-      return estimator_status(unpack(frame, mavlink_msg_estimator_status_decode).flags, ESTIMATOR_GPS_GLITCH);
+      return decode_estimator_status(frame);
     case MAVLINK_MSG_ID_TIMESYNC:
       return decode_timesync(frame);
     case MAVLINK_MSG_ID_SYSTEM_TIME:

@@ -2,16 +2,19 @@
 #include "geoloc/io/mavlink/state_messages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "geoloc/geometry/angles.hpp"
 #include "pack.hpp"
 
 namespace geoloc::io {
 namespace {
 
 constexpr MavAddress kVehicle{1, MAV_COMP_ID_AUTOPILOT1};
+constexpr float kNotTold = std::numeric_limits<float>::quiet_NaN();
 
 std::uint32_t milliseconds(VehicleTime time) {
   return static_cast<std::uint32_t>(
@@ -41,8 +44,8 @@ OutgoingFrame StateWriter::heartbeat() {
 }
 
 OutgoingFrame StateWriter::attitude(const AttitudeSample& sample) {
-  constexpr double kNotTold = std::numeric_limits<double>::quiet_NaN();
-  const Eigen::Vector3d rates = sample.rates_in_body_radps.value_or(Eigen::Vector3d::Constant(kNotTold));
+  const Eigen::Vector3d rates =
+      sample.rates_in_body_radps.value_or(Eigen::Vector3d::Constant(static_cast<double>(kNotTold)));
   mavlink_attitude_t fields{};
   fields.time_boot_ms = milliseconds(sample.time);
   fields.roll = static_cast<float>(sample.angles.roll_rad);
@@ -82,6 +85,39 @@ OutgoingFrame StateWriter::gnss(const PositionSample& sample, const GnssClaim& c
   fields.h_acc = millimetres(claim.sigma_horizontal_m);
   fields.v_acc = millimetres(claim.sigma_height_m);
   return pack(kVehicle, sequence_++, true, mavlink_msg_gps_raw_int_encode_status, fields);
+}
+
+OutgoingFrame StateWriter::gimbal(const GimbalSample& sample) {
+  return sample.holds_direction ? gimbal_device(sample, *sample.holds_direction) : mount_orientation(sample);
+}
+
+OutgoingFrame StateWriter::gimbal_device(const GimbalSample& sample, bool holds_direction) {
+  const Eigen::Quaterniond& turn = sample.level_from_gimbal;
+  const std::array<double, 4> wxyz{turn.w(), turn.x(), turn.y(), turn.z()};
+  mavlink_gimbal_device_attitude_status_t fields{};
+  fields.time_boot_ms = milliseconds(sample.time);
+  std::transform(wxyz.begin(), wxyz.end(), fields.q, [](double value) { return static_cast<float>(value); });
+  fields.angular_velocity_x = fields.angular_velocity_y = fields.angular_velocity_z = kNotTold;
+  fields.delta_yaw = fields.delta_yaw_velocity = kNotTold;
+  fields.flags = GIMBAL_DEVICE_FLAGS_ROLL_LOCK | GIMBAL_DEVICE_FLAGS_PITCH_LOCK;
+  fields.flags |= sample.yaw == GimbalYaw::kFromNorth ? GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME
+                                                      : GIMBAL_DEVICE_FLAGS_YAW_IN_VEHICLE_FRAME;
+  if (holds_direction) fields.flags |= GIMBAL_DEVICE_FLAGS_YAW_LOCK;
+  fields.gimbal_device_id = 1;
+  return pack(kVehicle, sequence_++, true, mavlink_msg_gimbal_device_attitude_status_encode_status, fields);
+}
+
+OutgoingFrame StateWriter::mount_orientation(const GimbalSample& sample) {
+  const EulerAngles angles = euler_angles(sample.level_from_gimbal);
+  const auto yaw_deg = static_cast<float>(angles.yaw_rad * kDegPerRad);
+  const bool is_from_north = sample.yaw == GimbalYaw::kFromNorth;
+  mavlink_mount_orientation_t fields{};
+  fields.time_boot_ms = milliseconds(sample.time);
+  fields.roll = static_cast<float>(angles.roll_rad * kDegPerRad);
+  fields.pitch = static_cast<float>(angles.pitch_rad * kDegPerRad);
+  fields.yaw = is_from_north ? kNotTold : yaw_deg;
+  fields.yaw_absolute = is_from_north ? yaw_deg : kNotTold;
+  return pack(kVehicle, sequence_++, true, mavlink_msg_mount_orientation_encode_status, fields);
 }
 
 }  // namespace geoloc::io

@@ -25,12 +25,16 @@ bool is_state(const Message& message) {
   return std::holds_alternative<AttitudeMessage>(message) || std::holds_alternative<PositionSample>(message);
 }
 
+VehicleChoice::Autopilot VehicleChoice::autopilot_of(const Heartbeat& heartbeat) {
+  if (heartbeat.is_from_ardupilot()) return Autopilot::kArduPilot;
+  return heartbeat.is_from_px4() ? Autopilot::kPx4 : Autopilot::kOther;
+}
+
 bool VehicleChoice::observe(const Frame& frame, const Message& message, HostTime received_at) {
   if (frame.sender.component != kAutopilotComponent) return false;
   Autopilot& autopilot = autopilots_[frame.sender.system];
   const auto* const heartbeat = std::get_if<Heartbeat>(&message);
-  if (heartbeat != nullptr && heartbeat->is_from_autopilot())
-    autopilot = heartbeat->is_from_ardupilot() ? Autopilot::kArduPilot : Autopilot::kOther;
+  if (heartbeat != nullptr && heartbeat->is_from_autopilot()) autopilot = autopilot_of(*heartbeat);
   if (autopilot == Autopilot::kNone) return false;
   const bool sends_state = is_state(message);
   if (vehicle_ == frame.sender) {

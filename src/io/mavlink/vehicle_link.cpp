@@ -254,7 +254,8 @@ void VehicleLink::handle(const CommandAck& message, const Arrival& arrival) {
 
 void VehicleLink::poll(HostTime now, const Send& send) {
   if (!choice_.vehicle()) return;
-  writer_.use_v2(is_v2_);
+  // Until it hears version 2, a PX4 may speak version 1, which has no accuracies and no messages of gimbals.
+  writer_.use_v2(is_v2_ || choice_.is_px4());
   if (is_due(last_heartbeat_, kHeartbeatPeriod, now)) {
     last_heartbeat_ = now;
     send_frame(writer_.heartbeat(self()), send);

@@ -37,8 +37,12 @@ HostTime next_after(HostTime due, Duration period, HostTime now) {
 
 }  // namespace
 
-MavlinkVehicle::MavlinkVehicle(const Flight& flight, HostTime booted_at)
-    : booted_at_(booted_at), next_heartbeat_(booted_at) {
+MavlinkVehicle::MavlinkVehicle(const Flight& flight, HostTime booted_at, AutopilotManners manners)
+    : manners_(std::move(manners)),
+      booted_at_(booted_at),
+      next_heartbeat_(booted_at),
+      next_timesync_(booted_at),
+      is_v2_(!manners_.begins_in_v1) {
   for (RecordedStream& recorded : recorded_streams(flight)) {
     streams_.push_back({std::move(recorded), std::nullopt, {}, 0});
   }
@@ -62,6 +66,8 @@ void MavlinkVehicle::receive(const std::uint8_t* data, std::size_t size, HostTim
     data += taken;
     size -= taken;
     while (const auto frame = parser_.next()) {
+      is_v2_ = is_v2_ || frame->is_v2;
+      has_listener_ = has_listener_ || !manners_.unasked.empty();
       switch (frame->message_id) {
         case MAVLINK_MSG_ID_COMMAND_LONG: {
           const auto command = fields_of<mavlink_command_long_t>(*frame);
@@ -89,6 +95,7 @@ std::vector<Datagram> MavlinkVehicle::take_due(HostTime now, const FlightClock& 
     send_heartbeat(now, clock);
     next_heartbeat_ = next_after(next_heartbeat_, kHeartbeatPeriod, now);
   }
+  send_unasked(now, clock);
   for (Stream& stream : streams_) {
     if (!stream.interval) continue;
     if (clock.is_released()) play(stream, now, clock);
@@ -99,7 +106,9 @@ std::vector<Datagram> MavlinkVehicle::take_due(HostTime now, const FlightClock& 
 
 void MavlinkVehicle::reboot(HostTime now) {
   booted_at_ = now;
-  silent_until_ = next_heartbeat_ = now + kBootSilence;
+  silent_until_ = next_heartbeat_ = next_timesync_ = now + kBootSilence;
+  has_begun_ = false;
+  is_v2_ = !manners_.begins_in_v1;
   parser_ = {};
   sequence_ = 0;
   for (Stream& stream : streams_) stream.interval.reset();
@@ -125,20 +134,26 @@ void MavlinkVehicle::answer_command(const Command& command, io::MavAddress sende
 
 std::uint8_t MavlinkVehicle::set_message_interval(float message_id, float interval_us, HostTime now,
                                                   const FlightClock& clock) {
+  constexpr float kOff = -1.0F, kDefault = 0.0F;
   Stream* const stream = find(message_id);
-  if (stream == nullptr) return MAV_RESULT_DENIED;
-  if (interval_us == -1.0F || interval_us == 0.0F) {  // off, or the default, which is off
+  if (stream == nullptr) return manners_.refusal;
+  const double default_hz = unasked_rate_hz(stream->recorded.message_id);
+  if (interval_us == kOff || (interval_us == kDefault && default_hz == 0.0)) {
     stream->interval.reset();
     return MAV_RESULT_ACCEPTED;
   }
-  if (!(interval_us > 0.0F && interval_us <= kSlowestInterval_us)) return MAV_RESULT_DENIED;
-  start(*stream, from_seconds(static_cast<double>(interval_us) * 1e-6), now, clock);
+  if (interval_us != kDefault && !(interval_us > 0.0F && interval_us <= kSlowestInterval_us))
+    return manners_.refusal;
+  const double interval_s =
+      interval_us == kDefault ? 1.0 / default_hz : static_cast<double>(interval_us) * 1e-6;
+  start(*stream, from_seconds(interval_s), now, clock);
+  has_listener_ = true;
   return MAV_RESULT_ACCEPTED;
 }
 
 std::uint8_t MavlinkVehicle::send_once(float message_id, HostTime now, const FlightClock& clock) {
   const Stream* const stream = find(message_id);
-  if (stream == nullptr) return MAV_RESULT_DENIED;
+  if (stream == nullptr) return manners_.refusal;
   const std::size_t latest = stream->recorded.latest(clock.flight_time(now));
   tell(stream->recorded.messages[latest], now, clock.is_flying(now) ? clock.speed() : 0.0);
   return MAV_RESULT_ACCEPTED;
@@ -146,7 +161,7 @@ std::uint8_t MavlinkVehicle::send_once(float message_id, HostTime now, const Fli
 
 void MavlinkVehicle::set_data_stream(const io::Frame& frame, HostTime now, const FlightClock& clock) {
   const auto request = fields_of<mavlink_request_data_stream_t>(frame);
-  if (!is_for_us(request.target_system, request.target_component)) return;
+  if (!manners_.knows_data_streams || !is_for_us(request.target_system, request.target_component)) return;
   for (Stream& stream : streams_) {
     const bool is_meant = data_stream_of(stream.recorded.message_id) == request.req_stream_id ||
                           request.req_stream_id == MAV_DATA_STREAM_ALL;
@@ -155,6 +170,7 @@ void MavlinkVehicle::set_data_stream(const io::Frame& frame, HostTime now, const
       stream.interval.reset();
     } else {
       start(stream, from_seconds(1.0 / request.req_message_rate), now, clock);
+      has_listener_ = true;
     }
   }
 }
@@ -166,7 +182,33 @@ void MavlinkVehicle::start(Stream& stream, Duration interval, HostTime now, cons
   stream.next_message = stream.recorded.latest(flight_time);
   // The latest is in the past: the first to be sent is the one after it.
   if (stream.recorded.messages[stream.next_message].sent_at <= flight_time) ++stream.next_message;
-  was_asked_ = true;
+}
+
+/// What it sends by itself, from when it has booted.
+void MavlinkVehicle::send_unasked(HostTime now, const FlightClock& clock) {
+  if (manners_.timesync_rate_hz > 0.0 && now >= next_timesync_) {
+    send_timesync_request(now);
+    next_timesync_ = next_after(next_timesync_, from_seconds(1.0 / manners_.timesync_rate_hz), now);
+  }
+  if (std::exchange(has_begun_, true)) return;
+  for (Stream& stream : streams_) {
+    const double rate_hz = unasked_rate_hz(stream.recorded.message_id);
+    if (rate_hz > 0.0) start(stream, from_seconds(1.0 / rate_hz), now, clock);
+  }
+}
+
+/// 0 where it is not sent unasked.
+double MavlinkVehicle::unasked_rate_hz(std::uint32_t message_id) const {
+  for (const UnaskedStream& unasked : manners_.unasked) {
+    if (unasked.message_id == message_id) return unasked.rate_hz;
+  }
+  return 0.0;
+}
+
+void MavlinkVehicle::send_timesync_request(HostTime now) {
+  mavlink_timesync_t request{};
+  request.ts1 = boot_clock(now).count();
+  send(MAVLINK_MSG_ID_TIMESYNC, payload_of(request));
 }
 
 void MavlinkVehicle::answer_timesync(const io::Frame& frame, HostTime now) {
@@ -181,7 +223,7 @@ void MavlinkVehicle::answer_timesync(const io::Frame& frame, HostTime now) {
 void MavlinkVehicle::send_heartbeat(HostTime now, const FlightClock& clock) {
   mavlink_heartbeat_t fields{};
   fields.type = MAV_TYPE_QUADROTOR;
-  fields.autopilot = MAV_AUTOPILOT_ARDUPILOTMEGA;
+  fields.autopilot = manners_.heartbeat_type;
   fields.system_status = MAV_STATE_ACTIVE;
   fields.mavlink_version = 3;
   Payload payload = payload_of(fields);
@@ -231,8 +273,8 @@ void MavlinkVehicle::tell(const RecordedMessage& message, HostTime sent_at, doub
 
 void MavlinkVehicle::send(std::uint32_t message_id, const Payload& payload, std::uint8_t component) {
   std::uint8_t& sequence = component == kAddress.component ? sequence_ : camera_sequence_;
-  Datagram datagram = encode_frame(message_id, {kAddress.system, component}, sequence, payload);
-  if (datagram.empty()) return;  // recorded_streams() leaves such messages out
+  Datagram datagram = encode_frame(message_id, {kAddress.system, component}, sequence, payload, is_v2_);
+  if (datagram.empty()) return;  // in MAVLink 1, one that has no number there
   ++sequence;
   outgoing_.push_back(std::move(datagram));
   ++messages_sent_;

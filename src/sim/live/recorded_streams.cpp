@@ -88,6 +88,10 @@ void edit(mavlink_gps_raw_int_t& m, const Retelling& how) {
   m.vel = static_cast<std::uint16_t>(std::min(std::round(m.vel * how.speed), kUnknown - 1.0));
 }
 
+void edit(mavlink_estimator_status_t& m, const Retelling& how) {
+  m.time_usec = moved_us(m.time_usec, how);
+}
+
 void edit(mavlink_system_time_t& m, const Retelling& how) {
   m.time_boot_ms = moved_ms(m.time_boot_ms, how);
   const auto utc = std::chrono::floor<std::chrono::microseconds>(how.utc.time_since_epoch());
@@ -199,6 +203,9 @@ Payload retell(const FrameView& recorded, const Retelling& how) {
       break;
     case MAVLINK_MSG_ID_GPS_RAW_INT:
       edit_as<mavlink_gps_raw_int_t>(payload, how);
+      break;
+    case MAVLINK_MSG_ID_ESTIMATOR_STATUS:
+      edit_as<mavlink_estimator_status_t>(payload, how);
       break;
     case MAVLINK_MSG_ID_SYSTEM_TIME:
       edit_as<mavlink_system_time_t>(payload, how);

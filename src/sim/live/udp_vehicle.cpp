@@ -47,7 +47,7 @@ UdpVehicle::UdpVehicle(const Flight& flight, const UdpVehicleSettings& settings,
       socket_(any_port(resolve(settings.peer))),
       // As if it had booted when the recorded one did: at speed 1, without waiting, its clock reads what was
       // recorded.
-      vehicle_(flight, host_clock.now() - flight_clock.span().begin.time_since_epoch()),
+      vehicle_(flight, host_clock.now() - flight_clock.span().begin.time_since_epoch(), settings.manners),
       to_peer_(settings.faults, stream_seed(settings.seed, RandomStream::kLink)),
       from_peer_(settings.faults, stream_seed(settings.seed + 1, RandomStream::kLink)) {
   socket_.answer(resolve(settings.peer));
@@ -75,7 +75,7 @@ void UdpVehicle::step(HostTime now) {
   }
   for (Datagram& datagram : vehicle_.take_due(now, flight_clock_)) to_peer_.send(std::move(datagram), now);
   while (const auto datagram = to_peer_.receive(now)) socket_.send(datagram->data(), datagram->size());
-  was_asked_ = vehicle_.was_asked_for_messages();
+  has_listener_ = vehicle_.has_listener();
   messages_sent_ = vehicle_.messages_sent();
 }
 

@@ -83,6 +83,40 @@ TEST(Ulog, LogsOfALaterKindAreRefused) {
   EXPECT_THROW(parse_ulog("something else"), std::runtime_error);
 }
 
+std::string subscribed(std::uint16_t number, const std::string& topic, const std::string& fields) {
+  return message('F', topic + ":" + fields) + message('A', packed(std::uint8_t{0}, number) + topic);
+}
+
+TEST(Ulog, PicturesCountOnceWhereTheyWereTriggeredAndTaken) {
+  const std::string fields = "uint64_t timestamp;";
+  const auto event = [](int number, std::uint64_t time_us) {
+    return message('D', packed(static_cast<std::uint16_t>(number), time_us));
+  };
+  const std::string begin = kHeader + flags(0) + kDefinitions + subscribed(8, "camera_trigger", fields) +
+                            subscribed(9, "camera_capture", fields) + placed(1) + event(8, 2'000'000);
+  const FlightLog triggered = parse_ulog(begin + event(8, 4'000'000));
+  EXPECT_EQ(triggered.camera_events.size(), 2U);
+  const FlightLog taken = parse_ulog(begin + event(9, 2'100'000) + event(8, 4'000'000) + event(9, 4'100'000));
+  ASSERT_EQ(taken.camera_events.size(), 2U);
+  EXPECT_EQ(taken.camera_events[0].time, VehicleTime{2100ms});
+}
+
+TEST(Ulog, GimbalsTellWhatTheirYawCountsFromAndWhetherTheyHoldIt) {
+  constexpr std::uint16_t kYawLock = 16, kVehicleFrame = 32;
+  const auto gimbal = [](std::uint16_t device_flags) {
+    return message('D', packed(std::uint16_t{8}, std::uint64_t{1}, 1.0F, 0.0F, 0.0F, 0.0F, device_flags));
+  };
+  const FlightLog log = parse_ulog(
+      kHeader + flags(0) + kDefinitions +
+      subscribed(8, "gimbal_device_attitude_status", "uint64_t timestamp;float[4] q;uint16_t device_flags;") +
+      placed(1) + gimbal(kYawLock) + gimbal(kVehicleFrame));
+  ASSERT_EQ(log.gimbal.size(), 2U);
+  EXPECT_EQ(log.gimbal[0].yaw, GimbalYaw::kFromNorth);
+  EXPECT_EQ(log.gimbal[0].holds_direction, true);
+  EXPECT_EQ(log.gimbal[1].yaw, GimbalYaw::kFromNose);
+  EXPECT_EQ(log.gimbal[1].holds_direction, false);
+}
+
 TEST(Ulog, LocalPositionsHangOnTheirReference) {
   const std::string log_bytes =
       kHeader +

@@ -53,6 +53,23 @@ TEST(StateMessages, AreReadBackAsTheyWereTold) {
   EXPECT_DOUBLE_EQ(gnss.sigma_horizontal_m.value(), 0.05);
 }
 
+TEST(StateMessages, GimbalsAreReadBackAsTheyWereTold) {
+  StateWriter writer;
+  for (const GimbalYaw yaw : {GimbalYaw::kFromNose, GimbalYaw::kFromNorth}) {
+    for (const std::optional<bool> holds :
+         {std::optional<bool>{}, std::optional(false), std::optional(true)}) {
+      for (const double pitch_rad : {0.0, -0.7, -1.5707}) {
+        const GimbalSample told{VehicleTime{1234ms}, ned_from_body({0.02, pitch_rad, 3.0}), yaw, holds};
+        const auto again = std::get<GimbalMessage>(read_back(writer.gimbal(told))).sample;
+        EXPECT_EQ(again.time, told.time);
+        EXPECT_EQ(again.yaw, yaw);
+        EXPECT_EQ(again.holds_direction, holds);
+        EXPECT_LT(again.level_from_gimbal.angularDistance(told.level_from_gimbal), 1e-6);
+      }
+    }
+  }
+}
+
 TEST(StateMessages, WhatIsNotToldIsNotInvented) {
   StateWriter writer;
   const auto attitude = std::get<AttitudeMessage>(read_back(writer.attitude({VehicleTime{1ms}, {}}))).sample;

@@ -168,8 +168,9 @@ Bytes FrameFactory::ekf_status(std::uint16_t flags) {
   return pack(mavlink_msg_ekf_status_report_encode_status, fields);
 }
 
-Bytes FrameFactory::estimator_status(std::uint16_t flags) {
+Bytes FrameFactory::estimator_status(std::uint16_t flags, float pos_horiz_accuracy_m) {
   mavlink_estimator_status_t fields{};
+  fields.pos_horiz_accuracy = pos_horiz_accuracy_m;
   fields.flags = flags;
   return pack(mavlink_msg_estimator_status_encode_status, fields);
 }

@@ -56,7 +56,7 @@ class FrameFactory {
   /// CAMERA_SETTINGS.
   Bytes zoom_level(float percent);
   Bytes ekf_status(std::uint16_t flags);
-  Bytes estimator_status(std::uint16_t flags);
+  Bytes estimator_status(std::uint16_t flags, float pos_horiz_accuracy_m = 0.0F);
   Bytes system_time(VehicleTime time);
   Bytes timesync(std::int64_t tc1, std::int64_t ts1);
   /// A TIMESYNC of later dialects, which state the receiver.

@@ -203,6 +203,32 @@ TEST_F(VehicleLinkTest, TellsAGlitchOfEitherEstimator) {
   EXPECT_FALSE(link_.status(kStart + 20s).has_gnss_glitch);
 }
 
+TEST_F(VehicleLinkTest, TakesTheEstimatorsAccuracyWhereTheReceiverClaimsNoneOrIsNotBelieved) {
+  constexpr std::uint16_t kFine = 831, kGlitch = 831 | 1024, kConstantPosition = 229;
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                  kInf = std::numeric_limits<float>::infinity();
+  meet_vehicle();
+  Duration now = 2s;
+  const auto told = [&](const Bytes& status) {
+    now += 500ms;
+    hear(status, now);
+    hear(vehicle_.position(at(now), 47.0, 8.0), now);
+    return sink_.positions.empty() ? std::nullopt : sink_.positions.back().sigma_horizontal_m;
+  };
+  EXPECT_EQ(told(vehicle_.estimator_status(kConstantPosition, 0.5F)), std::nullopt);
+  EXPECT_TRUE(sink_.positions.empty()) << "a PX4 on the ground without a fix claims half a metre";
+  EXPECT_EQ(told(vehicle_.estimator_status(kFine, 2.0F)), 2.0);
+  for (const float nothing : {0.0F, -1.0F, kNan, kInf})
+    EXPECT_EQ(told(vehicle_.estimator_status(kFine, nothing)), std::nullopt) << nothing;
+  EXPECT_EQ(told(vehicle_.estimator_status(kFine, 2.0F)), 2.0);
+  EXPECT_EQ(told(vehicle_.estimator_status(kFine, 900.0F)), 2.0) << "one false claim has no effect";
+  EXPECT_EQ(told(vehicle_.gnss(3, 0.8)), 0.8) << "a filter is surer than its receiver, and no better";
+  EXPECT_EQ(told(vehicle_.estimator_status(kGlitch, 2.0F)), 2.0) << "the receiver is not believed";
+  for (int i = 0; i < 3; ++i) told(vehicle_.gnss(3, 3.5));
+  EXPECT_EQ(sink_.positions.back().sigma_horizontal_m, 3.5);
+  EXPECT_EQ(told(vehicle_.estimator_status(kFine, 2.0F)), 3.5);
+}
+
 TEST_F(VehicleLinkTest, DropsASampleThatComesBeforeItsStamp) {
   meet_vehicle();
   for (int i = 0; i < 40; ++i) hear(vehicle_.attitude(at(1s + i * 100ms)), 1s + i * 100ms);

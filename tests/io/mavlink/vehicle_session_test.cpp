@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "geoloc/io/mavlink/vehicle_link.hpp"
 #include "io/mavlink/fake_autopilot.hpp"
 
@@ -172,22 +174,29 @@ TEST(VehicleSession, FallsBackToArrivalsWithoutTimesync) {
       1ms);
 }
 
-TEST(VehicleSession, AnswersAMavlink1LinkInMavlink1) {
+/// The first bytes of the frames that a link sends to an autopilot that speaks MAVLink 1.
+std::set<int> answers_in_mavlink1(std::uint8_t autopilot) {
   Session session;
+  session.autopilot.character.autopilot = autopilot;
   session.run(1500ms);
   EXPECT_TRUE(session.autopilot.heard.back().is_v2);
   testing::FrameFactory old({1, 1}, false);
-  const auto frame = old.heartbeat();
+  const auto frame = old.heartbeat(autopilot);
   session.link.consume(session.now, frame.data(), frame.size(), session.sink);
-  std::vector<testing::Bytes> sent;
-  session.link.poll(session.now, [&](const std::uint8_t* bytes, std::size_t size) {
-    sent.emplace_back(bytes, bytes + size);
-  });
-  session.link.poll(session.now + 1s, [&](const std::uint8_t* bytes, std::size_t size) {
-    sent.emplace_back(bytes, bytes + size);
-  });
-  ASSERT_FALSE(sent.empty());
-  for (const auto& bytes : sent) EXPECT_EQ(bytes[0], 0xFE);
+  std::set<int> begins;
+  for (const Duration later : {0s, 1s}) {
+    session.link.poll(session.now + later,
+                      [&](const std::uint8_t* bytes, std::size_t) { begins.insert(bytes[0]); });
+  }
+  return begins;
+}
+
+TEST(VehicleSession, AnswersAMavlink1LinkInMavlink1) {
+  EXPECT_EQ(answers_in_mavlink1(testing::kArduPilot), std::set<int>{0xFE});
+}
+
+TEST(VehicleSession, BringsAPx4ToSpeakMavlink2) {
+  EXPECT_EQ(answers_in_mavlink1(testing::kPx4), std::set<int>{0xFD});
 }
 
 TEST(VehicleSession, ReplayOfItsRecordedFramesGivesTheSameSamplesAndTheSameClock) {

@@ -44,7 +44,7 @@ TEST(UdpVehicle, GivesGeolocsOwnReceiverWhatItAsksForOverARealSocket) {
     }
     link.poll(host_clock.now(), [&](const std::uint8_t* data, std::size_t size) { socket.send(data, size); });
   }
-  EXPECT_TRUE(vehicle.was_asked_for_messages());
+  EXPECT_TRUE(vehicle.has_listener());
   stop = true;
   thread.join();
 }

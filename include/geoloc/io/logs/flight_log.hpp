@@ -49,6 +49,8 @@ struct LoggedGimbal {
   VehicleTime time;
   EulerAngles angles;
   GimbalYaw yaw = GimbalYaw::kFromNorth;
+  /// Whether it holds a direction over ground, or turns with the vehicle; nullopt: the log does not tell.
+  std::optional<bool> holds_direction = std::nullopt;
 };
 
 /// The camera's focal length, as its equivalent for film of 35 mm, from that time on.

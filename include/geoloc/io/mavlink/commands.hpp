@@ -19,8 +19,7 @@ struct OutgoingFrame {
 /// Writes the few messages that geoloc sends. Each call uses one sequence number of the sender.
 class CommandWriter {
  public:
-  /// On a MAVLink 1 link it sends MAVLink 1, because some autopilots would otherwise switch the whole link to
-  /// MAVLink 2.
+  /// Autopilots that speak MAVLink 1 may switch the whole link to MAVLink 2 as soon as they hear it.
   void use_v2(bool use_v2) { use_v2_ = use_v2; }
 
   /// HEARTBEAT of an onboard computer.

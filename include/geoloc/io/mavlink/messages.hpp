@@ -20,6 +20,7 @@ struct Heartbeat {
   bool is_from_autopilot() const;
   bool is_from_ardupilot() const;
   bool is_from_camera() const;
+  bool is_from_px4() const;
 };
 
 /// ATTITUDE or ATTITUDE_QUATERNION.
@@ -70,7 +71,8 @@ struct GnssStatus {
 /// EKF_STATUS_REPORT (ArduPilot) or ESTIMATOR_STATUS (PX4), which share the bits that matter here.
 struct EstimatorStatus {
   std::uint16_t flags = 0;
-  bool has_gnss_glitch = false;  ///< the two name it by different bits
+  bool has_gnss_glitch = false;              ///< the two name it by different bits
+  std::optional<double> sigma_horizontal_m;  ///< pos_horiz_accuracy, which ESTIMATOR_STATUS alone has
 
   bool has_absolute_position() const;
 };

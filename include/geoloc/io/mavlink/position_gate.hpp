@@ -2,12 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/io/mavlink/claimed_sigma.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
 
 namespace geoloc::io {
@@ -25,12 +24,10 @@ enum class PositionRefusal {
 /// a link that carries neither, every position except 0, 0 passes.
 class PositionGate {
  public:
-  void observe(const GnssStatus& status, HostTime at) {
-    if (!status.sigma_horizontal_m || !is_fresh(gnss_, at)) claims_count_ = 0;
-    if (status.sigma_horizontal_m) note_claim(*status.sigma_horizontal_m);
-    gnss_ = {status, at};
+  void observe(const GnssStatus& status, HostTime at) { note(status, at, gnss_, gnss_claims_); }
+  void observe(const EstimatorStatus& status, HostTime at) {
+    note(status, at, estimator_, estimator_claims_);
   }
-  void observe(const EstimatorStatus& status, HostTime at) { estimator_ = {status, at}; }
 
   /// nullopt where the position may be used.
   std::optional<PositionRefusal> refusal(const Geodetic& position, HostTime now) const {
@@ -57,13 +54,13 @@ class PositionGate {
     return gnss_->status.fix_type;
   }
 
-  /// What the receiver claims: the median of its last three claims, or its first, so that one false claim
-  /// among others has no effect.
+  /// What the receiver claims or, where it claims nothing, the estimator. While the estimator takes the
+  /// receiver's positions for false it goes on without them: then the larger claim counts.
   std::optional<double> sigma_horizontal_m(HostTime now) const {
-    if (claims_count_ == 0 || !is_fresh(gnss_, now)) return std::nullopt;
-    const auto& [a, b, c] = claims_m_;
-    if (claims_count_ < claims_m_.size()) return a;
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+    const auto receivers = is_fresh(gnss_, now) ? gnss_claims_.value_m() : std::nullopt;
+    const auto estimators = is_fresh(estimator_, now) ? estimator_claims_.value_m() : std::nullopt;
+    if (!receivers || !estimators) return receivers ? receivers : estimators;
+    return has_gnss_glitch(now) ? std::max(*receivers, *estimators) : *receivers;
   }
 
  private:
@@ -73,25 +70,25 @@ class PositionGate {
     HostTime at;
   };
 
-  static constexpr Duration kLasts = std::chrono::seconds{5};  // both come once a second at least
+  static constexpr Duration kLasts = std::chrono::seconds{5};  // both come every two seconds at least
 
   template <typename Status>
   static bool is_fresh(const std::optional<Heard<Status>>& heard, HostTime now) {
     return heard && now - heard->at <= kLasts;
   }
 
-  void note_claim(double sigma_m) {
-    if (claims_count_ == claims_m_.size()) {
-      std::move(claims_m_.begin() + 1, claims_m_.end(), claims_m_.begin());
-      --claims_count_;
-    }
-    claims_m_[claims_count_++] = sigma_m;
+  template <typename Status>
+  static void note(const Status& status, HostTime at, std::optional<Heard<Status>>& last,
+                   ClaimedSigma& claims) {
+    if (!status.sigma_horizontal_m || !is_fresh(last, at)) claims.clear();
+    if (status.sigma_horizontal_m) claims.add(*status.sigma_horizontal_m);
+    last = {status, at};
   }
 
   std::optional<Heard<GnssStatus>> gnss_;
   std::optional<Heard<EstimatorStatus>> estimator_;
-  std::array<double, 3> claims_m_{};  // oldest first
-  std::size_t claims_count_ = 0;
+  ClaimedSigma gnss_claims_;
+  ClaimedSigma estimator_claims_;
 };
 
 }  // namespace geoloc::io

@@ -32,7 +32,14 @@ class StateWriter {
   /// GPS_RAW_INT of the same place.
   OutgoingFrame gnss(const PositionSample& sample, const GnssClaim& claim);
 
+  /// GIMBAL_DEVICE_ATTITUDE_STATUS of the first gimbal or, where the sample does not tell whether it holds a
+  /// direction, MOUNT_ORIENTATION, which does not either.
+  OutgoingFrame gimbal(const GimbalSample& sample);
+
  private:
+  OutgoingFrame gimbal_device(const GimbalSample& sample, bool holds_direction);
+  OutgoingFrame mount_orientation(const GimbalSample& sample);
+
   std::uint8_t sequence_ = 0;
 };
 

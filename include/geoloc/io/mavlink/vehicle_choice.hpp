@@ -27,14 +27,19 @@ class VehicleChoice {
   const std::optional<MavAddress>& vehicle() const { return vehicle_; }
 
   /// Whether the vehicle's heartbeats name ArduPilot.
-  bool is_ardupilot() const { return vehicle_ && autopilots_[vehicle_->system] == Autopilot::kArduPilot; }
+  bool is_ardupilot() const { return is_by(Autopilot::kArduPilot); }
+
+  /// Whether they name PX4.
+  bool is_px4() const { return is_by(Autopilot::kPx4); }
 
   /// The system of another autopilot that was heard within the last seconds, be it allowed or not.
   std::optional<std::uint8_t> other_system(HostTime now) const;
 
  private:
-  enum class Autopilot : std::uint8_t { kNone, kArduPilot, kOther };
+  enum class Autopilot : std::uint8_t { kNone, kArduPilot, kPx4, kOther };
 
+  bool is_by(Autopilot autopilot) const { return vehicle_ && autopilots_[vehicle_->system] == autopilot; }
+  static Autopilot autopilot_of(const Heartbeat& heartbeat);
   bool may_replace(bool sends_state, HostTime now) const;
   void note_state(HostTime received_at);
 

@@ -8,23 +8,24 @@
 #include <vector>
 
 #include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/sim/live/autopilot_manners.hpp"
 #include "geoloc/sim/live/flight_clock.hpp"
 #include "geoloc/sim/live/recorded_streams.hpp"
 
 namespace geoloc::sim {
 
-/// Plays the telemetry of a recorded flight the way an autopilot would. Unasked it sends HEARTBEAT alone. It
-/// answers MAV_CMD_SET_MESSAGE_INTERVAL, REQUEST_DATA_STREAM, MAV_CMD_REQUEST_MESSAGE and TIMESYNC, and
-/// refuses other commands. Messages are the recorded ones, told again on this vehicle's own boot clock: at
-/// the rate that was asked for, but not faster than recorded; a flight flown X times as fast has X times the
-/// rate. While the flight clock waits, the pose stands still. No sockets, no clocks: bytes and times come in,
-/// datagrams go out.
+/// Plays the telemetry of a recorded flight the way an autopilot would. Unasked it sends HEARTBEAT, and what
+/// its manners say. It answers MAV_CMD_SET_MESSAGE_INTERVAL, REQUEST_DATA_STREAM, MAV_CMD_REQUEST_MESSAGE and
+/// TIMESYNC, and refuses other commands. Messages are the recorded ones, told again on this vehicle's own
+/// boot clock: at the rate that was asked for, but not faster than recorded; a flight flown X times as fast
+/// has X times the rate. While the flight clock waits, the pose stands still. No sockets, no clocks: bytes
+/// and times come in, datagrams go out.
 class MavlinkVehicle {
  public:
   static constexpr io::MavAddress kAddress{1, 1};
 
   /// The flight must outlive it. booted_at: when its boot clock read zero.
-  MavlinkVehicle(const Flight& flight, HostTime booted_at);
+  MavlinkVehicle(const Flight& flight, HostTime booted_at, AutopilotManners manners = ardupilot_manners());
 
   /// Takes in what came from the peer; answers are in the next take_due().
   void receive(const std::uint8_t* data, std::size_t size, HostTime now, const FlightClock& clock);
@@ -35,7 +36,8 @@ class MavlinkVehicle {
   /// Power lost and back: silence while booting, then a new boot clock and nothing asked for.
   void reboot(HostTime now);
 
-  bool was_asked_for_messages() const { return was_asked_; }
+  /// Someone has asked for messages or, where they come unasked, has spoken at all.
+  bool has_listener() const { return has_listener_; }
   std::uint64_t messages_sent() const { return messages_sent_; }
 
   /// What the vehicle's clock reads.
@@ -65,6 +67,10 @@ class MavlinkVehicle {
 
   bool is_for_us(std::uint8_t system, std::uint8_t component) const;
   bool has_camera() const;
+  void send_unasked(HostTime now, const FlightClock& clock);
+  double unasked_rate_hz(std::uint32_t message_id) const;
+
+  void send_timesync_request(HostTime now);
   void send_heartbeat(HostTime now, const FlightClock& clock);
   void play(Stream& stream, HostTime now, const FlightClock& clock);
   void repeat_latest(Stream& stream, HostTime now, const FlightClock& clock);
@@ -72,16 +78,20 @@ class MavlinkVehicle {
   void send(std::uint32_t message_id, const Payload& payload, std::uint8_t component = kAddress.component);
   Stream* find(float message_id);
 
+  AutopilotManners manners_;
   HostTime booted_at_;
   HostTime silent_until_{};
   HostTime next_heartbeat_;
+  HostTime next_timesync_;
+  bool has_begun_ = false;  // since it booted
+  bool is_v2_ = false;
   io::FrameParser parser_;
   std::vector<Stream> streams_;
   std::vector<Datagram> outgoing_;
   std::uint8_t sequence_ = 0;
   std::uint8_t camera_sequence_ = 0;
   std::uint64_t messages_sent_ = 0;
-  bool was_asked_ = false;
+  bool has_listener_ = false;
 };
 
 }  // namespace geoloc::sim

@@ -14,7 +14,8 @@ namespace geoloc::sim {
 
 struct UdpVehicleSettings {
   io::UdpEndpoint peer{"127.0.0.1",
-                       14550};        ///< where the vehicle speaks to, from a port of the system's choice
+                       14550};  ///< where the vehicle speaks to, from a port of the system's choice
+  AutopilotManners manners = ardupilot_manners();
   LinkFaults faults;                  ///< in both directions
   std::uint64_t seed = 1;             ///< of the faults
   std::optional<double> reboot_at_s;  ///< [s] of real time into the flight
@@ -31,7 +32,7 @@ class UdpVehicle {
   /// Plays until `stop`.
   void run(const std::atomic<bool>& stop);
 
-  bool was_asked_for_messages() const { return was_asked_; }
+  bool has_listener() const { return has_listener_; }
   std::uint64_t messages_sent() const { return messages_sent_; }
 
  private:
@@ -44,7 +45,7 @@ class UdpVehicle {
   FaultyLink to_peer_;
   FaultyLink from_peer_;
   std::optional<Duration> reboot_after_;
-  std::atomic<bool> was_asked_{false};
+  std::atomic<bool> has_listener_{false};
   std::atomic<std::uint64_t> messages_sent_{0};
 };
 
