@@ -53,8 +53,10 @@ class Guide(AppTest):
         sim = self.sims / name
         shutil.copy(sim / "video.mkv", self.folder / video)
         flight = Flight(sim / "telemetry.tlog")
-        stamps_us = [json.loads(line)["time_us"] - flight.utc_us for line in (sim / "frames.jsonl").read_text().splitlines()]
-        self.truth = [feature["geometry"]["coordinates"] for feature in json.loads((sim / "truth.geojson").read_text())["features"]]
+        frames = [json.loads(line) for line in (sim / "frames.jsonl").read_text().splitlines()]
+        stamps_us = [frame["time_us"] - flight.utc_us for frame in frames]
+        targets = json.loads((sim / "truth.geojson").read_text())["features"]
+        self.truth = [target["geometry"]["coordinates"] for target in targets]
         return flight, stamps_us
 
     def type_in(self, section, map_name, most_error_m):
