@@ -80,8 +80,8 @@ struct FrameView {
   /// What lies in the projector's plane: the ground below the vehicle, so high above the level ground.
   double terrain_m = 0.0;
   CameraTurn turn;
-  std::optional<Eigen::Vector2d> focal_px;  ///< [fx, fy] of the camera then; nullopt: the calibration's
-  double sigma_focal_share = 0.0;           ///< 1-sigma of it, as a share of it, while the camera zooms
+  std::optional<Eigen::Vector2d> focal_px = std::nullopt;  ///< [fx, fy] then; nullopt: the calibration's
+  double sigma_focal_share = 0.0;  ///< 1-sigma of it, as a share of it, while the camera zooms
 };
 
 }  // namespace geoloc

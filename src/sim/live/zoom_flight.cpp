@@ -3,6 +3,7 @@
 
 #include <all/mavlink.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
