@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""scripts/gimbal_table.py [BIN]: the table of docs/flying.md, cameras on gimbals beside rigid ones on the same flights.
+"""scripts/gimbal_table.py [BIN [WORD]]: the tables of docs/flying.md, cameras on gimbals and cameras that zoom beside rigid ones
+on the same flights. With WORD, only the rows whose name holds it, and those that they are compared with.
 
 Each row is the mean over three of the flights in data/flights, with three sets of targets and errors each.
 """
+import csv
+import json
+import math
 import pathlib
 import re
 import subprocess
@@ -12,6 +16,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BIN = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "release" / "bin"
+WORD = sys.argv[2] if len(sys.argv) > 2 else ""
 FLIGHTS = "stock_path1", "stock_path3", "stock_path5"
 SEEDS = 1, 2, 3
 
@@ -29,25 +34,46 @@ ROWS = [
     (f"gimbal, 45° down, {yaw}s, says {says}, wrongly",
      ("--gimbal", "45", "--gimbal-yaw", yaw, "--gimbal-told-yaw", told, "--gimbal-wrong-flag"), None)
     for yaw in ("follow", "lock") for told, says in (("nose", "north"), ("north", "nose"))
+] + [
+    ("rigid, looks down, zooms 1-4x", ("--zoom", "1..4"), "rigid, looks down"),
+    ("rigid, 45° down in flight, zooms 1-4x", ("--mount-pitch-deg", "-38", "--zoom", "1..4"), "rigid, 45° down in flight"),
+    ("gimbal, looks down, zooms 1-4x", ("--gimbal", "nadir", "--zoom", "1..4"), "gimbal, looks down"),
+    ("gimbal, 45° down, zooms 1-4x", ("--gimbal", "45", "--zoom", "1..4"), "gimbal, 45° down"),
 ]
 NOTICES = "contradicts that", "no noise while the vehicle shakes"
 
 
+def never_shown(truth, raw):
+    """How many targets have no detection within 1.5 m: a camera that zooms in flies past some of them."""
+    with open(raw, newline="") as file:
+        seen = [(float(row["longitude_deg"]), float(row["latitude_deg"])) for row in csv.DictReader(file)]
+    targets = [feature["geometry"]["coordinates"][:2] for feature in json.loads(truth.read_text())["features"]]
+
+    def distance_m(a, b):
+        return 111.2e3 * math.hypot((a[0] - b[0]) * math.cos(math.radians(a[1])), a[1] - b[1])
+
+    return sum(all(distance_m(target, place) > 1.5 for place in seen) for target in targets)
+
+
 def score(flight, seed, options):
-    """What geoloc_replay says of a recording that geoloc_sim makes."""
+    """What geoloc_replay says of a recording that geoloc_sim makes, and how many targets its camera never showed."""
     with tempfile.TemporaryDirectory(prefix="geoloc-gimbal-") as folder:
         recording = pathlib.Path(folder) / "recording"
         subprocess.run([BIN / "geoloc_sim", "--record", recording, "--flight", flight, "--seed", str(seed), *options],
                        check=True, capture_output=True)
-        replay = [BIN / "geoloc_replay", recording, "--out", pathlib.Path(folder) / "objects.geojson"]
-        return subprocess.run(replay, check=True, capture_output=True, text=True).stderr
+        raw = pathlib.Path(folder) / "raw.csv"
+        replay = [BIN / "geoloc_replay", recording, "--raw", raw, "--out", pathlib.Path(folder) / "objects.geojson"]
+        said = subprocess.run(replay, check=True, capture_output=True, text=True).stderr
+        return said, never_shown(recording / "truth.geojson", raw)
 
 
 def main():
     rmse_m = {}
-    print("| camera | RMSE m | against rigid | found | extra | noticed |\n|---|---|---|---|---|---|")
-    for name, options, rigid in ROWS:
-        said = [score(flight, seed, options) for flight in FLIGHTS for seed in SEEDS]
+    wanted = {name for row in ROWS if WORD in row[0] for name in (row[0], row[2])}
+    print("| camera | RMSE m | against | found | never shown | extra | noticed |\n|---|---|---|---|---|---|---|")
+    for name, options, rigid in (row for row in ROWS if row[0] in wanted):
+        scores = [score(flight, seed, options) for flight in FLIGHTS for seed in SEEDS]
+        said = [text for text, _ in scores]
         errors = [float(re.search(r"RMSE ([\d.]+)", text)[1]) for text in said]
         found = [re.search(r"found (\d+) / (\d+)", text) for text in said]
         extra = sum(int(re.search(r"extra (\d+)", text)[1]) for text in said)
@@ -55,7 +81,7 @@ def main():
         rmse_m[name] = sum(errors) / len(errors)
         ratio = f"{rmse_m[name] / rmse_m[rigid]:.2f}" if rigid else ""
         print(f"| {name} | {rmse_m[name]:.3f} | {ratio} | {sum(int(f[1]) for f in found)}/{sum(int(f[2]) for f in found)} "
-              f"| {extra} | {noticed} of {len(said)} |", flush=True)
+              f"| {sum(unseen for _, unseen in scores)} | {extra} | {noticed} of {len(said)} |", flush=True)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -83,6 +84,15 @@ void note_rtk(const std::vector<TimedStill>& stills, FlightPlan& plan) {
   if (told > 0)
     plan.notes.push_back(fmt::format("RTK: of {} pictures, {} have a fixed solution, {} a float one, {} none",
                                      stills.size(), fixed, floating, stills.size() - fixed - floating));
+}
+
+void note_zoom(FlightPlan& plan) {
+  const auto zoomed = std::count_if(plan.exposures.begin(), plan.exposures.end(),
+                                    [](const Exposure& exposure) { return exposure.focal_px.has_value(); });
+  if (zoomed > 0)
+    plan.notes.push_back(fmt::format(
+        "zoom: {} of {} pictures have another focal length than most ({:.0f} px), and are located with it",
+        zoomed, plan.exposures.size(), plan.camera.fx_px));
 }
 
 void note_heights(const std::vector<TimedStill>& stills, FlightPlan& plan) {

@@ -19,6 +19,9 @@ void note_heights(const std::vector<TimedStill>& stills, FlightPlan& plan);
 /// Their solutions, as DJI numbers them.
 void note_rtk(const std::vector<TimedStill>& stills, FlightPlan& plan);
 
+/// Pictures whose focal length is not that of most.
+void note_zoom(FlightPlan& plan);
+
 /// How the cameras looked that tell nothing of it, and pictures that contradict themselves.
 /// `told_pitch_deg`: by the user.
 void assume_attitudes(const std::vector<TimedStill>& stills, std::optional<double> told_pitch_deg,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <map>
@@ -35,38 +36,58 @@ void leave_out_unless(std::vector<NamedStill>& stills, const char* reason, std::
   stills.erase(usable_end, stills.end());
 }
 
-/// One camera has one size and one focal length; a zoom is another camera.
-using CameraKey = std::tuple<int, int, long>;
+/// One camera has one size and one lens, which may zoom.
+using CameraKey = std::tuple<int, int, double, double, std::array<double, 5>>;
 
-CameraKey key_of(const io::Still& still) {
-  return {still.width_px, still.height_px, std::lround(still.lens->intrinsics.fx_px)};
+CameraKey camera_of(const io::Still& still) {
+  const CameraIntrinsics& lens = still.lens->intrinsics;
+  return {still.width_px, still.height_px, lens.cx_px, lens.cy_px, lens.distortion};
 }
 
-/// The camera of most of the pictures.
-CameraKey most_common_camera(const std::vector<NamedStill>& stills) {
-  std::map<CameraKey, std::size_t> counts;
-  for (const NamedStill& named : stills) ++counts[key_of(named.still)];
+long focal_key(const io::Still& still) {
+  return std::lround(still.lens->intrinsics.fx_px);
+}
+
+/// What most of the stills have, whose lens must be told; the least of those that are as common.
+template <typename KeyOf>
+auto most_common(const std::vector<NamedStill>& stills, const KeyOf& key_of) {
+  std::map<decltype(key_of(stills.front().still)), std::size_t> counts;
+  for (const NamedStill& named : stills) {
+    if (named.still.lens) ++counts[key_of(named.still)];
+  }
   return std::max_element(counts.begin(), counts.end(),
                           [](const auto& a, const auto& b) { return a.second < b.second; })
       ->first;
 }
 
+/// Of the first picture that was taken with the focal length that most have; nullopt where none tells one.
+std::optional<io::Lens> most_common_lens(const std::vector<NamedStill>& stills) {
+  const auto tells_lens = [](const NamedStill& named) { return named.still.lens.has_value(); };
+  if (std::none_of(stills.begin(), stills.end(), tells_lens)) return std::nullopt;
+  const long focal = most_common(stills, focal_key);
+  const auto found = std::find_if(stills.begin(), stills.end(), [&](const NamedStill& named) {
+    return named.still.lens && focal_key(named.still) == focal;
+  });
+  return found->still.lens;
+}
+
 void keep_one_camera(std::vector<NamedStill>& stills, const FlightFacts& facts, FlightPlan& plan) {
   if (facts.lens) {
-    for (NamedStill& named : stills) named.still.lens = facts.lens;
     leave_out_unless(stills, "has another size than the camera of --camera", plan.left_out,
                      [&](const NamedStill& named) {
                        return named.still.width_px == facts.lens->intrinsics.width_px &&
                               named.still.height_px == facts.lens->intrinsics.height_px;
                      });
+    plan.camera = facts.lens->intrinsics;
+    return;
   }
   leave_out_unless(stills, "tells no focal length, which --camera may give", plan.left_out,
                    [](const NamedStill& named) { return named.still.lens.has_value(); });
   if (stills.empty()) return;
-  const CameraKey camera = most_common_camera(stills);
-  leave_out_unless(stills, "has another size or focal length than most; import these by themselves",
-                   plan.left_out, [&](const NamedStill& named) { return key_of(named.still) == camera; });
-  const io::Lens& lens = *stills.front().still.lens;
+  const CameraKey camera = most_common(stills, camera_of);
+  leave_out_unless(stills, "has another size or lens than most; import these by themselves", plan.left_out,
+                   [&](const NamedStill& named) { return camera_of(named.still) == camera; });
+  const io::Lens lens = *most_common_lens(stills);
   plan.camera = lens.intrinsics;
   if (!facts.lens) plan.sigma_focal_percent = io::sigma_focal_percent(lens.source);
   if (lens.source == io::FocalSource::k35mm)
@@ -74,6 +95,18 @@ void keep_one_camera(std::vector<NamedStill>& stills, const FlightFacts& facts, 
         fmt::format("the focal length is the pictures' equivalent for film of 35 mm, {:.0f} px to {:g} %, an "
                     "unknown of the calibration (--camera gives a better one)",
                     lens.intrinsics.fx_px, plan.sigma_focal_percent));
+}
+
+/// Those that differ by less are of one focal length, as it is focused.
+constexpr double kSameFocalLength = 0.01;
+
+/// A picture's focal length by the camera's, as far as it tells how much longer its own is than that of most.
+std::optional<Eigen::Vector2d> zoomed_focal_px(const io::Still& still, const std::optional<io::Lens>& usual,
+                                               const CameraIntrinsics& camera) {
+  if (!still.lens || !usual) return std::nullopt;
+  const double zoom = still.lens->intrinsics.fx_px / usual->intrinsics.fx_px;
+  if (std::abs(zoom - 1.0) < kSameFocalLength) return std::nullopt;
+  return Eigen::Vector2d(zoom * camera.fx_px, zoom * camera.fy_px);
 }
 
 bool is_leg(const Exposure& from, const Exposure& to) {
@@ -139,6 +172,7 @@ FlightPlan plan_flight(std::vector<NamedStill> stills, const FlightFacts& facts)
                    [](const NamedStill& named) { return named.still.taken.has_value(); });
   keep_one_camera(stills, facts, plan);
   if (stills.empty()) return plan;
+  const std::optional<io::Lens> usual_lens = most_common_lens(stills);
   const std::vector<TimedStill> timed =
       in_order_of_time(std::move(stills), facts.utc_offset_h, plan.assumptions);
   refuse_long_span(timed);
@@ -150,10 +184,12 @@ FlightPlan plan_flight(std::vector<NamedStill> stills, const FlightFacts& facts)
   assume_attitudes(timed, facts.camera_pitch_deg, plan);
   for (std::size_t i = 0; i < timed.size(); ++i) {
     Exposure exposure = exposure_of(timed[i], timed.front().at);
+    exposure.focal_px = zoomed_focal_px(timed[i].named.still, usual_lens, plan.camera);
     exposure.position.height_above_home_m = heights.above_take_off_m[i];
     exposure.position.height_msl_m = heights.above_take_off_m[i] + heights.take_off_msl_m.value_or(0.0);
     plan.exposures.push_back(std::move(exposure));
   }
+  note_zoom(plan);
   take_velocities(plan.exposures);
   take_courses(plan.exposures, timed);
   return plan;

@@ -29,11 +29,12 @@ struct Exposure {
   HostTime at;
   PositionSample position;
   AttitudeSample attitude;
-  std::optional<CameraMount> mount;   ///< nullopt: the plan's
-  std::optional<io::GnssClaim> gnss;  ///< where the receiver claims an accuracy
+  std::optional<CameraMount> mount;         ///< nullopt: the plan's
+  std::optional<Eigen::Vector2d> focal_px;  ///< [fx, fy] of a picture that was zoomed; nullopt: the plan's
+  std::optional<io::GnssClaim> gnss;        ///< where the receiver claims an accuracy
 };
 
-/// Pictures of one camera in the order they were taken.
+/// Pictures of one camera, which may zoom, in the order they were taken.
 struct FlightPlan {
   std::vector<Exposure> exposures;
   CameraIntrinsics camera;

@@ -75,7 +75,7 @@ LogSource read_log(const std::filesystem::path& file, const TrackFacts& facts) {
   try {
     io::FlightLog log = parse(bytes);
     LogSource source;
-    source.focal_35mm_mm = log.focal_35mm_mm;
+    source.focal_lengths = log.focal_lengths;
     source.track = track_of(log, facts);
     source.times = times_of(log, *source.track, extension_of(file) == ".srt");
     source.begins_at = HostTime{source.track->begin.time_since_epoch() + source.track->utc_since_log};

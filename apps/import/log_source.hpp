@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geoloc/io/logs/flight_log.hpp"
 #include "geoloc/io/recording/tlog.hpp"
 #include "import/flight_track.hpp"
 #include "import/video_offset.hpp"
@@ -17,8 +18,8 @@ struct LogSource {
   std::optional<FlightTrack> track;
   std::optional<io::Tlog> telemetry;  ///< a MAVLink log, which goes into the recording as it is
   LogTimes times;
-  HostTime begins_at;                   ///< on the clock of the recording
-  std::optional<double> focal_35mm_mm;  ///< the camera's equivalent for film of 35 mm, where the log tells it
+  HostTime begins_at;                                ///< on the clock of the recording
+  std::vector<io::LoggedFocalLength> focal_lengths;  ///< as FlightLog's
 };
 
 /// The format is told by the name's extension. Throws std::runtime_error naming file and fault.

@@ -45,6 +45,7 @@ void RecordingMaker::write(const FlightPlan& plan, const PictureLooks& looks) {
     frame.detections = *detections;
     frame.time_quality = "picture";
     frame.mount = exposure.mount;
+    frame.focal_px = exposure.focal_px;
     writer_.add_frame(frame);
   }
 }

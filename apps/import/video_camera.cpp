@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 #include "geoloc/io/json/camera_file.hpp"
@@ -26,7 +28,13 @@ std::optional<io::Lens> film_lens(const VideoFacts& video, double focal_35mm_mm)
 }  // namespace
 
 VideoCamera video_camera(const std::string& camera_file, const VideoFacts& video,
-                         std::optional<double> focal_35mm_mm, std::vector<std::string>& assumptions) {
+                         const std::vector<io::LoggedFocalLength>& told,
+                         std::vector<std::string>& assumptions) {
+  if (told.size() > 1)
+    assumptions.emplace_back(
+        "the camera zooms during the video: the calibration is taken to be that of the log's first focal "
+        "length, "
+        "and frames are located with the one that the log tells then");
   if (!camera_file.empty()) {
     const CameraConfig camera = io::read_camera_file(camera_file);
     const CameraIntrinsics& size = camera.intrinsics;
@@ -37,7 +45,7 @@ VideoCamera video_camera(const std::string& camera_file, const VideoFacts& video
                       camera_file, size.width_px, size.height_px, video.width_px, video.height_px));
     return {camera, 0.0};
   }
-  const auto lens = focal_35mm_mm ? film_lens(video, *focal_35mm_mm) : std::nullopt;
+  const auto lens = told.empty() ? std::nullopt : film_lens(video, told.front().equivalent_mm);
   if (!lens)
     throw std::runtime_error(
         "the camera's focal length is not known: give its calibration with --camera (a file with width, "
@@ -52,6 +60,16 @@ VideoCamera video_camera(const std::string& camera_file, const VideoFacts& video
   camera.config.intrinsics = lens->intrinsics;
   camera.sigma_focal_percent = kFilmSigma_percent;
   return camera;
+}
+
+std::optional<Eigen::Vector2d> focal_px_at(const std::vector<io::LoggedFocalLength>& told,
+                                           const CameraIntrinsics& camera, VehicleTime time) {
+  const auto is_later = [](VehicleTime t, const io::LoggedFocalLength& focal) { return t < focal.time; };
+  const auto next = std::upper_bound(told.begin(), told.end(), time, is_later);
+  if (next == told.begin()) return std::nullopt;
+  const double zoom = std::prev(next)->equivalent_mm / told.front().equivalent_mm;
+  if (zoom == 1.0) return std::nullopt;
+  return Eigen::Vector2d(zoom * camera.fx_px, zoom * camera.fy_px);
 }
 
 }  // namespace geoloc::apps

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geoloc/camera/camera.hpp"
+#include "geoloc/io/logs/flight_log.hpp"
 #include "import/video_looks.hpp"
 
 namespace geoloc::apps {
@@ -19,6 +20,12 @@ struct VideoCamera {
 /// The camera of `camera_file` or, where none is named, what the log tells of its lens; what that leaves open
 /// is added to `assumptions`. Throws std::runtime_error where nothing tells, or the file is of another size.
 VideoCamera video_camera(const std::string& camera_file, const VideoFacts& video,
-                         std::optional<double> focal_35mm_mm, std::vector<std::string>& assumptions);
+                         const std::vector<io::LoggedFocalLength>& told,
+                         std::vector<std::string>& assumptions);
+
+/// The focal length [fx, fy] at a time of the log, by the camera's and by how much longer than the first one
+/// the log tells it to be; nullopt where it is the camera's.
+std::optional<Eigen::Vector2d> focal_px_at(const std::vector<io::LoggedFocalLength>& told,
+                                           const CameraIntrinsics& camera, VehicleTime time);
 
 }  // namespace geoloc::apps

@@ -51,7 +51,7 @@ struct VideoProgram {
       : options(given),
         log(read_log(options.log, facts_of(options))),
         facts(video_facts(options.video)),
-        camera(video_camera(options.camera_file, facts, log.focal_35mm_mm, assumptions)),
+        camera(video_camera(options.camera_file, facts, log.focal_lengths, assumptions)),
         offset(find_offset({facts.file.created_at, facts.file.duration}, log.times, told_offset(options))) {
     source.labels = labels_in(options.labels_file);
     open_detector_unless_labelled(options.detector, options.tuning, source);

@@ -7,6 +7,7 @@
 
 #include "geoloc/io/mavlink/state_messages.hpp"
 #include "import/gimbal_mount.hpp"
+#include "import/video_camera.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -111,6 +112,9 @@ std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& w
         HostTime{};
     frame.detections = look.detections;
     frame.time_quality = "file";
+    if (log.track)
+      frame.focal_px =
+          focal_px_at(log.focal_lengths, flight.camera.config.intrinsics, log.track->begin + since_log_begin);
     if (log.track && !log.track->gimbal.empty()) {
       frame.mount = gimbal_mount(*log.track, flight.camera.config.mount, log.track->begin + since_log_begin);
       if (!frame.mount) {

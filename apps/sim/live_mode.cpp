@@ -36,7 +36,7 @@ TimeSpan live_span(const RunSettings& settings, const Trajectory& truth) {
 struct LiveRun {
   LiveRun(const RunOptions& run, const LiveOptions& options, std::uint64_t seed)
       : settings(to_settings(run, seed)),
-        flight(with_gimbal(load_flight(run), run, settings)),
+        flight(with_moving_camera(load_flight(run), run, settings)),
         targets_in_enu(make_targets(settings)),
         flight_clock(live_span(settings, flight.truth), options.speed),
         vehicle(flight, {io::parse_udp_endpoint(options.udp), options.link, seed, options.reboot_at_s},

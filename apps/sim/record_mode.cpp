@@ -66,7 +66,7 @@ int run_record_mode(const RunOptions& run, const RecordOptions& options, std::ui
     run_span(settings.run, flight->truth);  // refuses times outside the flight
     if (options.has_rangefinder)
       flight = with_rangefinder(*flight, options.terrain, run_seed(settings.run, *flight));
-    flight = with_gimbal(std::move(*flight), run, settings.run);
+    flight = with_moving_camera(std::move(*flight), run, settings.run);
   } catch (const std::exception& error) {
     return fail(error, 2);
   }

@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim/run_options.hpp"
 
+#include <charconv>
 #include <filesystem>
+#include <system_error>
 
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/sim/live/state_jumps.hpp"
+#include "geoloc/sim/live/zoom_flight.hpp"
 #include "sim/option_groups.hpp"
 
 namespace geoloc::sim {
+
+namespace {
+
+/// nullopt where none is asked for. Throws std::invalid_argument for another text than "1..4" and the like.
+std::optional<ZoomSettings> zoom_settings(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::size_t dots = text.find("..");
+  const auto number = [&](const std::string& part) {
+    double value = 0.0;
+    const char* const end = part.data() + part.size();
+    const auto read = std::from_chars(part.data(), end, value);
+    if (dots == std::string::npos || read.ec != std::errc{} || read.ptr != end)
+      throw std::invalid_argument("--zoom " + text + ": two numbers are wanted, as in 1..4");
+    return value;
+  };
+  const ZoomSettings settings{number(text.substr(0, dots)), number(text.substr(dots + 2))};
+  throw_if_any(settings.problems());
+  return settings;
+}
+
+}  // namespace
 
 void add_run_options(CLI::App& program, RunOptions& options) {
   RunSettings& settings = options.settings;
@@ -43,6 +67,10 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   CLI::Option* const mount_pitch = add(kCameraGroup, "--mount-pitch-deg", settings.camera.mount.pitch_deg,
                                        "Nominal mount; -90 looks down, deg")
                                        ->capture_default_str();
+  add(kCameraGroup, "--zoom", options.zoom,
+      "The camera zooms in for some seconds and out again, and tells its field of view (CAMERA_FOV_STATUS): "
+      "LEAST..MOST, as in 1..4; 1 is --fov-deg [none]")
+      ->type_name("LEAST..MOST");
   add(kCameraGroup, "--distortion", options.distortion, "True lens: k1 k2 p1 p2 k3 [none]");
   program
       .add_flag("--uncalibrated-lens", options.uncalibrated_lens, "Leave the distortion out of camera.json")
@@ -91,10 +119,12 @@ Flight load_flight(const RunOptions& options) {
   return flight;
 }
 
-Flight with_gimbal(Flight flight, const RunOptions& options, const RunSettings& settings) {
-  const auto gimbal = to_settings(options.gimbal);
-  if (!gimbal) return flight;
-  return with_gimbal(flight, *gimbal, run_seed(settings, flight));
+Flight with_moving_camera(Flight flight, const RunOptions& options, const RunSettings& settings) {
+  const std::uint64_t seed = run_seed(settings, flight);
+  if (const auto gimbal = to_settings(options.gimbal)) flight = with_gimbal(flight, *gimbal, seed);
+  if (const auto zoom = zoom_settings(options.zoom))
+    flight = with_zoom(flight, *zoom, settings.camera.intrinsics, seed);
+  return flight;
 }
 
 }  // namespace geoloc::sim

@@ -22,6 +22,7 @@ struct RunOptions {
   std::array<double, 5> distortion{};
   bool uncalibrated_lens = false;
   GimbalOptions gimbal;
+  std::string zoom;  ///< as "1..4"; empty: none
   RunSettings settings;
 };
 
@@ -33,7 +34,7 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed);
 /// Throws std::runtime_error that says where flights were looked for, or which there are.
 Flight load_flight(const RunOptions& options);
 
-/// The flight with the gimbal that is asked for, and its errors by the run's seed.
-Flight with_gimbal(Flight flight, const RunOptions& options, const RunSettings& settings);
+/// The flight with the gimbal and the zoom that are asked for, and their errors by the run's seed.
+Flight with_moving_camera(Flight flight, const RunOptions& options, const RunSettings& settings);
 
 }  // namespace geoloc::sim

@@ -14,8 +14,8 @@ constexpr Duration kLongestGap = std::chrono::seconds{1};
 constexpr double kSameShare = 0.01;
 /// What times of cameras are off by, 1-sigma: they tell how they were set, not how the frame was taken.
 constexpr double kTimeSigma_s = 0.05;
-/// A zoom that begins or ends to run between two samples is off by up to an eighth of what it changes there
-/// when it is taken to run all the time, and mostly less.
+/// A zoom that begins or ends to run between two samples is off by a third of what it changes there (RMS),
+/// and between most it runs all the time.
 constexpr double kBendShare = 0.125;
 /// Links hold messages back for a while.
 constexpr Duration kLateness = std::chrono::milliseconds{300};

@@ -364,10 +364,21 @@ class IncompleteStills(ImportTest):
         truth = json.loads((self.recording / "truth.geojson").read_text())
         self.assertEqual([feature["properties"]["id"] for feature in truth["features"]], ["1", "2"])
 
+    def test_pictures_that_were_zoomed(self):
+        self.put({f"{i}.jpg": dji_tags(DateTimeOriginal=f"2016:06:23 16:32:4{i}") for i in range(3)})
+        self.put({"3.jpg": dji_tags(DateTimeOriginal="2016:06:23 16:32:43", FocalLengthIn35mmFormat=40)})
+        self.assert_imported(self.import_stills(), "1 of 4 pictures have another focal length than most")
+        camera = json.loads((self.recording / "camera.json").read_text())
+        lines = frames(self.recording)
+        self.assertEqual(len(lines), 4)
+        self.assertFalse(any("focal_px" in line for line in lines[:3]))
+        for told, calibrated in zip(lines[3]["focal_px"], (camera["fx"], camera["fy"])):
+            self.assertAlmostEqual(told / calibrated, 40 / 20, places=3)
+
     def test_pictures_of_two_cameras(self):
         self.put({f"{i}.jpg": dji_tags(DateTimeOriginal=f"2016:06:23 16:32:4{i}") for i in range(3)})
-        self.put({"zoomed.jpg": dji_tags(FocalLengthIn35mmFormat=40)})
-        self.assert_imported(self.import_stills(), "zoomed.jpg: has another size or focal length than most")
+        self.put({"other.jpg": dji_tags()}, size=(400, 300))
+        self.assert_imported(self.import_stills(), "other.jpg: has another size or lens than most")
         self.assertEqual(len(frames(self.recording)), 3)
 
     def test_a_camera_that_the_user_calibrated(self):

@@ -21,9 +21,9 @@ class LiveRun(AppTest):
     def objects(self):
         return json.loads(self.objects_file.read_text())
 
-    def fly_over(self, app):
+    def fly_over(self, app, *options):
         """Flies the piece for a running app, to its end."""
-        with self.world.fly(*PIECE) as sim:
+        with self.world.fly(*PIECE, *options) as sim:
             self.assertEqual(sim.wait(), 0, sim.lines)
         app.wait_for("objects [1-9]", after=app.line_count() - 1)
 
@@ -41,6 +41,17 @@ class LiveIsItsReplay(LiveRun):
         self.assertGreater(len(objects["features"]), 0)
         self.assertLess(counters["frames_unusable"], 0.25 * counters["frames"])
 
+        self.assertEqual(run("geoloc_replay", recording, "--out", replayed).status, 0)
+        self.assertEqual(self.objects_file.read_bytes(), replayed.read_bytes())
+
+
+    def test_a_camera_that_zooms_is_its_replay_too(self):
+        recording, replayed = self.folder / "recording", self.folder / "replayed.geojson"
+        with self.world.watch("--record", recording, "--out", self.objects_file) as app:
+            self.fly_over(app, "--zoom", "1..2")
+            self.assertEqual(app.interrupt(), 0, app.lines)
+        self.assertTrue(any("its camera tells its zoom" in line for line in app.lines), app.lines)
+        self.assertGreater(len(self.objects()["features"]), 0)
         self.assertEqual(run("geoloc_replay", recording, "--out", replayed).status, 0)
         self.assertEqual(self.objects_file.read_bytes(), replayed.read_bytes())
 

@@ -122,6 +122,19 @@ class ImportedVideos(VideoTest):
         self.assertIn("by the subtitles, frame by frame", said)
         self.assertIn("does not tell its time zone: UTC is assumed", said)
 
+    def test_subtitles_with_a_zoom(self):
+        exposed_us = [stamp_us - LATENCY_US for stamp_us in self.stamps_us]
+        blocks = to_srt(self.flight, exposed_us).split("\n\n")
+        half = len(blocks) // 2
+        zoomed = [block.replace("focal_len: 24.00", "focal_len: 48.00") for block in blocks[half:]]
+        said = self.imported(self.log("flight.SRT", "\n\n".join(blocks[:half] + zoomed)), "--labels", self.labels())
+        self.assertIn("the camera zooms during the video", said)
+        camera = json.loads(self.camera.read_text())
+        told = [frame.get("focal_px") for frame in frames_of(self.recording)]
+        self.assertEqual(len(told), len(blocks))
+        self.assertEqual(told[:half], [None] * half)
+        self.assertEqual(told[half:], [[2 * camera["fx"], 2 * camera["fy"]]] * (len(blocks) - half))
+
     def test_detectors_look_at_videos_and_go_on_where_they_were_stopped(self):
         log = self.log("flight.BIN", to_dataflash(self.flight, [self.stamps_us[0]]))
         command = ("geoloc_import", "video", self.video, "--log", log, "--camera", self.camera)

@@ -44,6 +44,7 @@ inline void read_any_frames(const std::string& text, BadLines bad_lines) {
     previous = frame.captured_at;
     for (const Detection& detection : frame.detections) require(is_usable(detection));
     if (frame.mount) require(CameraConfig{{}, *frame.mount}.problems().empty());
+    if (frame.focal_px) require(frame.focal_px->allFinite() && frame.focal_px->minCoeff() > 0.0);
   }
 }
 

@@ -47,7 +47,7 @@ inline void require_usable_log(const FlightLog& log, std::size_t size) {
     require_told(is_valid(fix.position));
     require_told(!fix.sigma_horizontal_m || *fix.sigma_horizontal_m > 0.0);
   }
-  require_told(!log.focal_35mm_mm || *log.focal_35mm_mm > 0.0);
+  for (const LoggedFocalLength& focal : log.focal_lengths) require_told(focal.equivalent_mm > 0.0);
   require_order(log.attitudes);
   require_order(log.positions);
   require_order(log.fixes);

@@ -43,6 +43,12 @@ class DistrustfulSink : public io::TelemetrySink {
     require(std::abs(sample.level_from_gimbal.norm() - 1.0) < 1e-6);
     require(sample.time.time_since_epoch() < std::chrono::hours{24 * 366 * 100});
   }
+  void on_field_of_view(const FieldOfViewSample& sample) override {
+    require(sample.horizontal_rad || sample.vertical_rad);
+    for (const auto& angle_rad : {sample.horizontal_rad, sample.vertical_rad})
+      require(!angle_rad || (*angle_rad > 0.0 && *angle_rad < 3.15));
+    require(sample.time.time_since_epoch() < std::chrono::hours{24 * 366 * 100});
+  }
   void on_reboot() override {}
   void on_clock_step(Duration) override {}
   void on_frame(HostTime, const std::uint8_t* frame, std::size_t size) override {
@@ -81,12 +87,14 @@ Bytes checksummed_frame(std::uint16_t message_id, const std::uint8_t* payload, s
 
 /// Reads the input as a list of messages (which one, payload size, payload) and frames them.
 Bytes framed(const std::uint8_t* data, std::size_t size) {
-  constexpr std::uint16_t kDecoded[] = {0, 2, 24, 30, 31, 33, 76, 77, 111, 158, 193, 230, 265, 285};
-  constexpr std::uint8_t kGimbal = 154;
+  constexpr std::uint16_t kDecoded[] = {0, 2, 24, 30, 31, 33, 76, 77, 111, 158, 193, 230, 265, 285, 260, 271};
+  constexpr std::uint8_t kGimbal = 154, kCamera = 100;
   Bytes stream = checksummed_frame(0, reinterpret_cast<const std::uint8_t*>("\0\0\0\0\2\3\0\4\3"), 9);
   for (std::size_t at = 0; at + 2 <= size;) {
     const std::uint16_t message_id = kDecoded[data[at] % std::size(kDecoded)];
-    const std::uint8_t component = data[at] >= 0x80 && message_id >= 158 ? kGimbal : 1;
+    const bool is_camera = message_id == 0 || message_id == 77 || message_id == 260 || message_id == 271;
+    const bool is_gimbal = message_id >= 158 && !is_camera;
+    const std::uint8_t component = data[at] < 0x80 ? 1 : is_camera ? kCamera : is_gimbal ? kGimbal : 1;
     const std::size_t payload_size = std::min<std::size_t>(data[at + 1], size - at - 2);
     const Bytes frame = checksummed_frame(message_id, data + at + 2, payload_size, component);
     stream.insert(stream.end(), frame.begin(), frame.end());

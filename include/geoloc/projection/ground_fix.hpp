@@ -80,8 +80,7 @@ struct FrameView {
   /// What lies in the projector's plane: the ground below the vehicle, so high above the level ground.
   double terrain_m = 0.0;
   CameraTurn turn;
-  /// [fx, fy] of the camera then; nullopt: the calibration's.
-  std::optional<Eigen::Vector2d> focal_px = std::nullopt;
+  std::optional<Eigen::Vector2d> focal_px = std::nullopt;  ///< [fx, fy] then; nullopt: the calibration's
   double sigma_focal_share = 0.0;  ///< 1-sigma of it, as a share of it, while the camera zooms
   double focal_ratio = 1.0;        ///< the true focal length by that
 };

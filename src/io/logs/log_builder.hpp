@@ -25,6 +25,12 @@ void keep(std::vector<Sample>& samples, Sample sample) {
   samples.push_back(std::move(sample));
 }
 
+/// Where it is another than the one before.
+inline void keep_focal_length(FlightLog& log, const LoggedFocalLength& told) {
+  if (log.focal_lengths.empty() || log.focal_lengths.back().equivalent_mm != told.equivalent_mm)
+    keep(log.focal_lengths, told);
+}
+
 /// Microseconds of a log's clock, as far as a clock goes: 292 years would overflow.
 inline bool is_time_us(double time_us) {
   constexpr double kMost_us = 9e15;
@@ -68,6 +74,7 @@ inline void finish(FlightLog& log) {
   sort_by_time(log.velocities);
   sort_by_time(log.fixes);
   sort_by_time(log.gimbal);
+  sort_by_time(log.focal_lengths);
   sort_by_time(log.camera_events);
   sort_by_time(log.utc);
 }

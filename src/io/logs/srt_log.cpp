@@ -69,7 +69,7 @@ class SubtitleCollector {
  public:
   void take(VehicleTime time, std::string_view text) {
     take_date(time, text);
-    take_focal_length(text);
+    take_focal_length(time, text);
     take_gimbal(time, text);
     const auto place = place_of(text);
     if (!place || !is_place(*place)) return;
@@ -89,9 +89,6 @@ class SubtitleCollector {
           is_latitude_first_
               ? "the subtitles' GPS(…) is taken to be latitude, longitude, as with BAROMETER(…)"
               : "the subtitles' GPS(…) is taken to be longitude, latitude, as DJI wrote it");
-    if (is_zoom_changed_)
-      log_.assumptions.emplace_back(
-          "the camera zoomed during the video: the focal length at its beginning is taken");
     log_.is_utc_local = true;
     finish(log_);
     return std::move(log_);
@@ -129,7 +126,7 @@ class SubtitleCollector {
   }
 
   /// In mm or, in older subtitles, tenths of them; a digital zoom narrows the view as a longer lens does.
-  void take_focal_length(std::string_view text) {
+  void take_focal_length(VehicleTime time, std::string_view text) {
     constexpr double kTenths = 100.0, kShortest_mm = 5.0, kLongest_mm = 2000.0, kZoomUnit = 1e4;
     auto focal_mm = value_of(text, "focal_len");
     if (!focal_mm) return;
@@ -140,8 +137,7 @@ class SubtitleCollector {
     if (zoom >= 0.5 * kZoomUnit) zoom /= kZoomUnit;
     *focal_mm *= std::max(zoom, 1.0);
     if (!(*focal_mm >= kShortest_mm && *focal_mm <= kLongest_mm)) return;
-    if (!log_.focal_35mm_mm) log_.focal_35mm_mm = focal_mm;
-    is_zoom_changed_ = is_zoom_changed_ || *focal_mm != *log_.focal_35mm_mm;
+    keep_focal_length(log_, {time, *focal_mm});
   }
 
   void take_gimbal(VehicleTime time, std::string_view text) {
@@ -158,7 +154,6 @@ class SubtitleCollector {
   FlightLog log_;
   bool is_latitude_first_ = false;
   bool is_order_taken_ = false;
-  bool is_zoom_changed_ = false;
 };
 
 }  // namespace

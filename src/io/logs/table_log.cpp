@@ -82,7 +82,7 @@ class TableReader {
     if (const auto angles =
             angles_of(number("gimbal_roll_deg"), number("gimbal_pitch_deg"), number("gimbal_yaw_deg")))
       keep(log.gimbal, {time, *angles, GimbalYaw::kFromNorth});
-    if (!log.focal_35mm_mm) log.focal_35mm_mm = number("focal_35mm_mm");
+    if (const auto focal_mm = number("focal_35mm_mm")) keep_focal_length(log, {time, *focal_mm});
     const auto latitude_deg = number("lat"), longitude_deg = number("lon");
     if (!latitude_deg || !longitude_deg || !is_place({*latitude_deg, *longitude_deg})) return;
     const Geodetic place{*latitude_deg, *longitude_deg};

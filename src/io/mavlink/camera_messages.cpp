@@ -78,8 +78,9 @@ OutgoingFrame CameraWriter::field_of_view(MavAddress self, const CameraView& vie
   const Eigen::Vector4f xyzw = view.ned_from_camera.coeffs().cast<float>();
   const Eigen::Vector4f wxyz(xyzw[3], xyzw[0], xyzw[1], xyzw[2]);
   std::memcpy(fields.q, wxyz.data(), sizeof fields.q);
-  fields.hfov = field_of_view_deg(image.width_px, image.fx_px);
-  fields.vfov = field_of_view_deg(image.height_px, image.fy_px);
+  const Eigen::Vector2d focal_px = view.focal_px.value_or(Eigen::Vector2d(image.fx_px, image.fy_px));
+  fields.hfov = field_of_view_deg(image.width_px, focal_px.x());
+  fields.vfov = field_of_view_deg(image.height_px, focal_px.y());
   return pack(self, sequence_++, true, mavlink_msg_camera_fov_status_encode_status, fields);
 }
 

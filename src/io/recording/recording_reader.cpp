@@ -2,6 +2,7 @@
 #include "geoloc/io/recording/recording_reader.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <istream>
@@ -46,7 +47,7 @@ CameraMount parse_mount(const json& value) {
   return mount;
 }
 
-/// Beyond these no image of any size has one; whether this camera's may is asked where that is known.
+/// Beyond these no image of any size has one; whether this camera's may is asked by refuse_focal_lengths().
 Eigen::Vector2d parse_focal_length(const json& value) {
   constexpr double kShortest_px = 0.01, kLongest_px = 1e9;
   if (!value.is_array() || value.size() != 2)
@@ -140,6 +141,26 @@ bool is_cut_off(const std::string& line, const std::istream& input) {
   return input.eof() || line.find('\0') != std::string::npos;
 }
 
+/// Frames whose focal length no camera with that image has; skipped where bad lines are.
+void refuse_focal_lengths(const CameraIntrinsics& camera, const std::string& name, BadLines bad_lines,
+                          Recording& recording) {
+  const auto is_bad = [&](const RecordedFrame& frame) {
+    return frame.focal_px && !is_focal_length(*frame.focal_px, camera);
+  };
+  auto& frames = recording.frames;
+  const auto first = std::find_if(frames.begin(), frames.end(), is_bad);
+  if (first == frames.end()) return;
+  const auto time_us =
+      std::chrono::floor<std::chrono::microseconds>(first->captured_at.time_since_epoch()).count();
+  const std::string fault = name + ": the frame of time_us " + std::to_string(time_us) +
+                            ": focal_px must be 0.01 to 10000 times the image's size that way";
+  if (bad_lines == BadLines::kRefuse) throw std::runtime_error(fault + " (--keep-going skips bad lines)");
+  const auto kept_end = std::remove_if(first, frames.end(), is_bad);
+  recording.skipped.count += static_cast<std::size_t>(frames.end() - kept_end);
+  if (recording.skipped.named.size() < kMostNamed) recording.skipped.named.push_back(fault);
+  frames.erase(kept_end, frames.end());
+}
+
 }  // namespace
 
 std::vector<RecordedFrame> read_frames(std::istream& input, const std::string& name, BadLines bad_lines,
@@ -201,6 +222,7 @@ Recording read_recording(const fs::path& folder, BadLines bad_lines) {
   std::ifstream frames(frames_file, std::ios::binary);
   if (!frames) throw std::runtime_error(frames_file.string() + ": cannot be opened");
   recording.frames = read_frames(frames, frames_file.string(), bad_lines, recording.skipped);
+  refuse_focal_lengths(recording.camera.intrinsics, frames_file.string(), bad_lines, recording);
   recording.telemetry = read_tlog(require_file(folder / kTelemetryFile));
   if (fs::exists(folder / kConfigFile)) recording.config_json = read_text_file(folder / kConfigFile);
   if (fs::exists(folder / kClassNamesFile))

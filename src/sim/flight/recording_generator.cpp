@@ -56,7 +56,7 @@ std::vector<io::RecordedFrame> generate_frames(const Flight& flight, const Recor
         (flight.host_time(exposed_at) + delay).time_since_epoch())};
     if (!frames.empty() && stamp < frames.back().captured_at - kMostDisorder) continue;
     if (!frames.empty()) stamp = std::max(stamp, frames.back().captured_at);
-    frames.push_back({stamp, detector.detect(*enu_from_camera), std::nullopt});
+    frames.push_back({stamp, detector.detect(*enu_from_camera, flight.zoom_at(exposed_at)), std::nullopt});
   }
   return frames;
 }

@@ -85,6 +85,11 @@ TrueCamera make_true_camera(const RunSettings& settings, std::uint64_t run_seed)
   return {intrinsics, {turned.normalized(), nominal.translation}, error_deg};
 }
 
+CameraModel zoomed(const CameraModel& camera, double zoom) {
+  const CameraIntrinsics& wide = camera.intrinsics();
+  return camera.with_focal_length({zoom * wide.fx_px, zoom * wide.fy_px});
+}
+
 CameraConfig nominal_camera(const RunSettings& settings) {
   CameraConfig camera = settings.camera;
   if (!settings.errors.lens_is_calibrated) camera.intrinsics.distortion = {};

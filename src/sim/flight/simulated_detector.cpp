@@ -8,6 +8,7 @@
 
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/flight/random_stream.hpp"
+#include "geoloc/sim/flight/run_settings.hpp"
 
 namespace geoloc::sim {
 namespace {
@@ -76,11 +77,12 @@ SimulatedDetector::SimulatedDetector(const DetectorModel& model, const CameraInt
   throw_if_any(model.problems());
 }
 
-std::vector<Detection> SimulatedDetector::detect(const Rigid3d& enu_from_camera) {
+std::vector<Detection> SimulatedDetector::detect(const Rigid3d& enu_from_camera, double zoom) {
+  const CameraModel camera = zoomed(camera_, zoom);
   const Rigid3d camera_from_enu = enu_from_camera.inverse();
   std::vector<Detection> found;
   for (const Eigen::Vector3d& target_in_enu : targets_in_enu_) {
-    auto box = disc_in_image(camera_, camera_from_enu, target_in_enu, model_);
+    auto box = disc_in_image(camera, camera_from_enu, target_in_enu, model_);
     if (!box) continue;
     // Drawn whether or not the target is missed, so that another miss rate leaves the noise alone.
     const bool missed = detections_.chance(model_.miss_rate);

@@ -45,9 +45,16 @@ FlightCamera::View FlightCamera::draw_view(HostTime stamp) {
   const double delay_s = errors_.latency_s + errors_.latency_jitter_s * timing_.normal();
   const HostTime exposed_at = stamp - from_seconds(delay_s / clock_.speed());
   const Duration half_exposure = from_seconds(0.5 * kExposure_s / clock_.speed());
-  const Eigen::Vector2d blur_px = image_motion_px(model_, enu_from_camera(exposed_at - half_exposure),
-                                                  enu_from_camera(exposed_at + half_exposure));
-  return {exposed_at, enu_from_camera(exposed_at), blur_px};
+  const double zoom = flight_.zoom_at(clock_.flight_time(exposed_at));
+  const Eigen::Vector2d blur_px =
+      image_motion_px(zoomed(model_, zoom), enu_from_camera(exposed_at - half_exposure),
+                      enu_from_camera(exposed_at + half_exposure));
+  return {exposed_at, enu_from_camera(exposed_at), blur_px, zoom};
+}
+
+void FlightCamera::render(const View& view, cv::Mat& bgr) {
+  if (flight_.zoom) renderer_.look_through(zoomed(model_, view.zoom));
+  renderer_.render(view.enu_from_camera, view.blur_px, bgr);
 }
 
 Rigid3d FlightCamera::enu_from_camera(HostTime time) const {

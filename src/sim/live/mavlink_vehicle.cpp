@@ -30,11 +30,6 @@ Payload payload_of(const Fields& fields) {
   return payload;
 }
 
-bool is_for_us(std::uint8_t system, std::uint8_t component) {
-  return (system == 0 || system == MavlinkVehicle::kAddress.system) &&
-         (component == 0 || component == MavlinkVehicle::kAddress.component);
-}
-
 /// The next time of something periodic; what was missed is not made up for.
 HostTime next_after(HostTime due, Duration period, HostTime now) {
   return due + period > now ? due + period : now + period;
@@ -49,6 +44,16 @@ MavlinkVehicle::MavlinkVehicle(const Flight& flight, HostTime booted_at)
   }
 }
 
+bool MavlinkVehicle::has_camera() const {
+  return std::any_of(streams_.begin(), streams_.end(),
+                     [](const Stream& stream) { return stream.recorded.component_id == MAV_COMP_ID_CAMERA; });
+}
+
+bool MavlinkVehicle::is_for_us(std::uint8_t system, std::uint8_t component) const {
+  return (system == 0 || system == kAddress.system) && (component == 0 || component == kAddress.component ||
+                                                        (component == MAV_COMP_ID_CAMERA && has_camera()));
+}
+
 void MavlinkVehicle::receive(const std::uint8_t* data, std::size_t size, HostTime now,
                              const FlightClock& clock) {
   if (now < silent_until_) return;
@@ -61,7 +66,8 @@ void MavlinkVehicle::receive(const std::uint8_t* data, std::size_t size, HostTim
         case MAVLINK_MSG_ID_COMMAND_LONG: {
           const auto command = fields_of<mavlink_command_long_t>(*frame);
           if (!is_for_us(command.target_system, command.target_component)) break;
-          answer_command({command.command, command.param1, command.param2}, frame->sender, now, clock);
+          answer_command({command.command, command.target_component, command.param1, command.param2},
+                         frame->sender, now, clock);
           break;
         }
         case MAVLINK_MSG_ID_REQUEST_DATA_STREAM:
@@ -113,7 +119,8 @@ void MavlinkVehicle::answer_command(const Command& command, io::MavAddress sende
   answer.result = result;
   answer.target_system = sender.system;
   answer.target_component = sender.component;
-  send(MAVLINK_MSG_ID_COMMAND_ACK, payload_of(answer));
+  const bool is_cameras = command.component == MAV_COMP_ID_CAMERA;
+  send(MAVLINK_MSG_ID_COMMAND_ACK, payload_of(answer), is_cameras ? command.component : kAddress.component);
 }
 
 std::uint8_t MavlinkVehicle::set_message_interval(float message_id, float interval_us, HostTime now,
@@ -183,6 +190,13 @@ void MavlinkVehicle::send_heartbeat(HostTime now, const FlightClock& clock) {
     payload = retell(recorded->recorded.messages[latest].frame, {});
   }
   send(MAVLINK_MSG_ID_HEARTBEAT, payload);
+  if (!has_camera()) return;
+  mavlink_heartbeat_t camera{};
+  camera.type = MAV_TYPE_CAMERA;
+  camera.autopilot = MAV_AUTOPILOT_INVALID;
+  camera.system_status = MAV_STATE_ACTIVE;
+  camera.mavlink_version = 3;
+  send(MAVLINK_MSG_ID_HEARTBEAT, payload_of(camera), MAV_COMP_ID_CAMERA);
 }
 
 /// Sends the recorded messages whose time has come, thinned out to those nearest to when one is due.
@@ -212,13 +226,14 @@ void MavlinkVehicle::repeat_latest(Stream& stream, HostTime now, const FlightClo
 
 void MavlinkVehicle::tell(const RecordedMessage& message, HostTime sent_at, double speed) {
   const Retelling how{boot_clock(sent_at), message.sent_at.time_since_epoch(), sent_at, speed};
-  send(message.frame.message_id, retell(message.frame, how));
+  send(message.frame.message_id, retell(message.frame, how), message.frame.component_id);
 }
 
-void MavlinkVehicle::send(std::uint32_t message_id, const Payload& payload) {
-  Datagram datagram = encode_frame(message_id, kAddress, sequence_, payload);
+void MavlinkVehicle::send(std::uint32_t message_id, const Payload& payload, std::uint8_t component) {
+  std::uint8_t& sequence = component == kAddress.component ? sequence_ : camera_sequence_;
+  Datagram datagram = encode_frame(message_id, {kAddress.system, component}, sequence, payload);
   if (datagram.empty()) return;  // recorded_streams() leaves such messages out
-  ++sequence_;
+  ++sequence;
   outgoing_.push_back(std::move(datagram));
   ++messages_sent_;
 }

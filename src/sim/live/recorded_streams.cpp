@@ -16,7 +16,11 @@ namespace {
 
 constexpr std::uint8_t kAutopilot = 1;  // MAV_COMP_ID_AUTOPILOT1
 
-bool is_played(std::uint32_t message_id) {
+/// Of the vehicle's other components, nothing but how far its camera has zoomed in.
+bool is_played(const FrameView& frame) {
+  const std::uint32_t message_id = frame.message_id;
+  if (frame.component_id != kAutopilot)
+    return frame.component_id == MAV_COMP_ID_CAMERA && message_id == MAVLINK_MSG_ID_CAMERA_FOV_STATUS;
   return message_id != MAVLINK_MSG_ID_COMMAND_ACK && message_id != MAVLINK_MSG_ID_STATUSTEXT &&
          message_id != MAVLINK_MSG_ID_TIMESYNC;
 }
@@ -102,6 +106,10 @@ void edit(mavlink_mount_orientation_t& m, const Retelling& how) {
   m.time_boot_ms = moved_ms(m.time_boot_ms, how);
 }
 
+void edit(mavlink_camera_fov_status_t& m, const Retelling& how) {
+  m.time_boot_ms = moved_ms(m.time_boot_ms, how);
+}
+
 void edit(mavlink_home_position_t& m, const Retelling& how) {
   m.time_usec = moved_us(m.time_usec, how);
 }
@@ -133,7 +141,7 @@ std::vector<RecordedStream> recorded_streams(const Flight& flight) {
   std::map<std::uint32_t, RecordedStream> streams;
   for (const io::TlogRecord& record : flight.telemetry.records()) {
     const auto frame = view_frame(record.frame, record.size);
-    if (!frame || frame->component_id != kAutopilot || !is_played(frame->message_id)) continue;
+    if (!frame || !is_played(*frame)) continue;
     if (!io::message_spec(frame->message_id)) continue;  // could not be framed again
     streams[frame->message_id].messages.push_back(
         {VehicleTime{record.received_at - flight.booted_at}, *frame});
@@ -143,6 +151,7 @@ std::vector<RecordedStream> recorded_streams(const Flight& flight) {
     const auto is_earlier = [](const auto& a, const auto& b) { return a.sent_at < b.sent_at; };
     std::stable_sort(stream.messages.begin(), stream.messages.end(), is_earlier);  // stamps of real logs jump
     stream.message_id = message_id;
+    stream.component_id = stream.messages.front().frame.component_id;
     const auto gaps = static_cast<Duration::rep>(stream.messages.size()) - 1;
     if (gaps > 0) stream.period = (stream.messages.back().sent_at - stream.messages.front().sent_at) / gaps;
     result.push_back(std::move(stream));
@@ -199,6 +208,9 @@ Payload retell(const FrameView& recorded, const Retelling& how) {
       break;
     case MAVLINK_MSG_ID_MOUNT_ORIENTATION:
       edit_as<mavlink_mount_orientation_t>(payload, how);
+      break;
+    case MAVLINK_MSG_ID_CAMERA_FOV_STATUS:
+      edit_as<mavlink_camera_fov_status_t>(payload, how);
       break;
     case MAVLINK_MSG_ID_HOME_POSITION:
       edit_as<mavlink_home_position_t>(payload, how);

@@ -59,6 +59,11 @@ CameraRenderer::~CameraRenderer() = default;
 CameraRenderer::CameraRenderer(CameraRenderer&&) noexcept = default;
 CameraRenderer& CameraRenderer::operator=(CameraRenderer&&) noexcept = default;
 
+void CameraRenderer::look_through(const CameraModel& camera) {
+  buffers_->camera = camera;
+  buffers_->grid.look_through(camera);
+}
+
 void CameraRenderer::render(const Rigid3d& enu_from_camera, const Eigen::Vector2d& blur_px, cv::Mat& bgr) {
   Buffers& work = *buffers_;
   const bool posed = enu_from_camera.translation.allFinite() &&

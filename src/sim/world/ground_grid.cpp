@@ -15,6 +15,12 @@ int nodes_across(int pixels) {
 GroundGrid::GroundGrid(const CameraModel& camera)
     : columns_(nodes_across(camera.intrinsics().width_px)),
       rows_(nodes_across(camera.intrinsics().height_px)) {
+  look_through(camera);
+  nodes_.resize(bearings_.size());
+}
+
+void GroundGrid::look_through(const CameraModel& camera) {
+  bearings_.clear();
   bearings_.reserve(size());
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
@@ -23,7 +29,6 @@ GroundGrid::GroundGrid(const CameraModel& camera)
                               : Eigen::Vector3f::Zero().eval());
     }
   }
-  nodes_.resize(bearings_.size());
 }
 
 void GroundGrid::look_from(const Rigid3d& enu_from_camera) {

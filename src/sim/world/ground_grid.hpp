@@ -25,6 +25,9 @@ class GroundGrid {
 
   explicit GroundGrid(const CameraModel& camera);
 
+  /// From now on through that camera, whose image is as large.
+  void look_through(const CameraModel& camera);
+
   /// Computes all nodes for a pose, which must be finite.
   void look_from(const Rigid3d& enu_from_camera);
 

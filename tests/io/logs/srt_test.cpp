@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <stdexcept>
+#include <string>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/logs/log_formats.hpp"
@@ -31,7 +33,8 @@ TEST(Subtitles, OfNewModelsTellPlaceHeightsAndGimbal) {
   EXPECT_DOUBLE_EQ(log.gimbal[0].angles.pitch_rad, -30.5 * kRadPerDeg);
   ASSERT_EQ(log.utc.size(), 1U);
   EXPECT_EQ(log.utc[0].utc.time_since_epoch(), Duration{1'779'887'400'015ms});
-  EXPECT_EQ(log.focal_35mm_mm, 28.0);
+  ASSERT_EQ(log.focal_lengths.size(), 1U);
+  EXPECT_EQ(log.focal_lengths[0].equivalent_mm, 28.0);
 }
 
 TEST(Subtitles, OfOldModelsTellLongitudeFirst) {
@@ -65,8 +68,29 @@ TEST(Subtitles, OfMavic2AreMisspelt) {
       "[altitude: 1429.7]");
   EXPECT_EQ(log.positions.at(0).position.longitude_deg, -1.963763);
   EXPECT_EQ(log.positions.at(0).heights.msl_m, 1429.7);
-  EXPECT_EQ(log.focal_35mm_mm, 24.0);
+  ASSERT_EQ(log.focal_lengths.size(), 1U);
+  EXPECT_EQ(log.focal_lengths[0].equivalent_mm, 24.0);
   EXPECT_EQ(log.utc.at(0).utc.time_since_epoch() % 1s, 123'456us);
+}
+
+TEST(Subtitles, TellEachChangeOfTheZoom) {
+  std::string text;
+  for (int i = 0; i < 6; ++i) {
+    const int focal_mm = i < 2 ? 24 : i < 4 ? 70 : 24;
+    text += std::to_string(i + 1) + "\n00:00:0" + std::to_string(i) + ",000 --> 00:00:0" + std::to_string(i) +
+            ",900\n[focal_len: " + std::to_string(focal_mm) +
+            ".00] [dzoom_ratio: " + (i == 5 ? "2.00" : "1.00") +
+            "], [latitude: 53.3] [longitude: -6.4] [rel_alt: 5.4 abs_alt: 30.0]\n\n";
+  }
+  const FlightLog log = parse_srt(text);
+  ASSERT_EQ(log.focal_lengths.size(), 4U);
+  const double expected_mm[] = {24.0, 70.0, 24.0, 48.0};
+  const std::chrono::seconds expected_at[] = {0s, 2s, 4s, 5s};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(log.focal_lengths[i].equivalent_mm, expected_mm[i]);
+    EXPECT_EQ(log.focal_lengths[i].time, VehicleTime{expected_at[i]});
+  }
+  EXPECT_TRUE(log.assumptions.empty());
 }
 
 TEST(Subtitles, OfAFilmAreNoLog) {

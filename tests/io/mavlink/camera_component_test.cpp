@@ -200,5 +200,19 @@ TEST_F(CameraComponentTest, AnImageCentreAboveTheHorizonIsAtInfinity) {
   EXPECT_NEAR(view.hfov, 70.0, 0.01);
 }
 
+TEST_F(CameraComponentTest, ACameraThatHasZoomedTellsWhatItSees) {
+  CameraView zoomed;
+  zoomed.captured_at = kBegin;
+  zoomed.focal_px = Eigen::Vector2d(640.0, 360.0);  // of an image of 1280 x 720
+  camera_.update(zoomed);
+  command(MAV_CMD_REQUEST_MESSAGE, 271.0F);
+  const auto said = poll(0s);
+  ASSERT_EQ(count(said, MAVLINK_MSG_ID_CAMERA_FOV_STATUS), 1);
+  mavlink_camera_fov_status_t view;
+  mavlink_msg_camera_fov_status_decode(&said.back(), &view);
+  EXPECT_NEAR(view.hfov, 90.0, 0.01);
+  EXPECT_NEAR(view.vfov, 90.0, 0.01);
+}
+
 }  // namespace
 }  // namespace geoloc::io

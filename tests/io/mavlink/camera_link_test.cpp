@@ -20,11 +20,11 @@ using namespace std::chrono_literals;
 using testing::Bytes;
 using testing::FrameFactory;
 
-constexpr HostTime kSwitchedOn{std::chrono::seconds{1'795'300'000}};
-constexpr std::uint8_t kCameraType = 30, kNoAutopilot = 8, kCamera = 100, kSecondCamera = 101;
-constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+constexpr HostTime kCameraLinkStart{std::chrono::seconds{1'795'300'000}};
+constexpr std::uint8_t kCameraType = 30, kNoAutopilotType = 8, kFirstCamera = 100, kSecondCamera = 101;
+constexpr float kNotTold = std::numeric_limits<float>::quiet_NaN();
 
-/// A vehicle whose clock is 0 at kSwitchedOn, and which tells its attitude ten times a second.
+/// A vehicle whose clock is 0 at kCameraLinkStart, and which tells its attitude ten times a second.
 class CameraLink : public ::testing::Test {
  protected:
   void SetUp() override { hear(vehicle_.heartbeat(), 1s); }
@@ -37,7 +37,7 @@ class CameraLink : public ::testing::Test {
   }
 
   void hear(const Bytes& frame, Duration after_start) {
-    link_.consume(kSwitchedOn + after_start, frame.data(), frame.size(), sink_);
+    link_.consume(kCameraLinkStart + after_start, frame.data(), frame.size(), sink_);
   }
 
   /// The vehicle alone, until then.
@@ -51,8 +51,8 @@ class CameraLink : public ::testing::Test {
     for (int i = 0; i < 300; ++i) {
       const Duration now = 1s + i * 100ms;
       fly_until(now);
-      if (i % 10 == 0) hear(camera.heartbeat(kNoAutopilot, kCameraType), now);
-      link_.poll(kSwitchedOn + now, [&](const std::uint8_t* frame, std::size_t) {
+      if (i % 10 == 0) hear(camera.heartbeat(kNoAutopilotType, kCameraType), now);
+      link_.poll(kCameraLinkStart + now, [&](const std::uint8_t* frame, std::size_t) {
         constexpr std::uint8_t kCommandLong = 76, kHeader = 10, kTargetComponent = 31;
         if (frame[0] != 0xFD || frame[7] != kCommandLong) return;
         float message_id = 0.0F;
@@ -63,12 +63,12 @@ class CameraLink : public ::testing::Test {
     return found;
   }
 
-  TelemetryCounts counts() const { return link_.status(kSwitchedOn).telemetry; }
+  TelemetryCounts counts() const { return link_.status(kCameraLinkStart).telemetry; }
 
   MavlinkConfig config_;
   VehicleLink link_{config_};
   testing::CollectingSink sink_;
-  FrameFactory vehicle_{{1, 1}}, camera_{{1, kCamera}}, second_{{1, kSecondCamera}};
+  FrameFactory vehicle_{{1, 1}}, camera_{{1, kFirstCamera}}, second_{{1, kSecondCamera}};
   Duration flown_ = 1s;
 };
 
@@ -88,7 +88,7 @@ TEST_F(CameraLink, TimesACameraByWhenItsMessagesCome) {
 
 TEST_F(CameraLink, TakesAnglesThatAreNotToldForNone) {
   fly_until(3s);
-  for (const float none : {kUnknown, 0.0F, -5.0F, 180.0F, std::numeric_limits<float>::infinity()}) {
+  for (const float none : {kNotTold, 0.0F, -5.0F, 180.0F, std::numeric_limits<float>::infinity()}) {
     begin_anew();
     fly_until(3s);
     hear(camera_.field_of_view(VehicleTime{3s}, none, none), 3s);
@@ -107,7 +107,7 @@ TEST_F(CameraLink, TakesAStampOfZeroForNone) {
 }
 
 TEST_F(CameraLink, ListensToOneCamera) {
-  FrameFactory gimbal({1, 154}), other_vehicle({2, kCamera});
+  FrameFactory gimbal({1, 154}), other_vehicle({2, kFirstCamera});
   for (const int wanted : {0, static_cast<int>(kSecondCamera), 2}) {
     config_.zoom_camera = wanted;
     begin_anew();
@@ -131,19 +131,19 @@ TEST_F(CameraLink, TakesWhatTheAutopilotSaysOfACameraOnceItChanges) {
   for (int i = 0; i < 20; ++i) {
     const Duration now = 1s + i * 200ms;
     fly_until(now);
-    hear(vehicle_.field_of_view(VehicleTime{now}, i < 10 ? 62.0F : 31.0F, kUnknown), now);
+    hear(vehicle_.field_of_view(VehicleTime{now}, i < 10 ? 62.0F : 31.0F, kNotTold), now);
   }
   ASSERT_EQ(sink_.fields_of_view.size(), 10U);
   EXPECT_EQ(sink_.fields_of_view[0].time, VehicleTime{3s});
-  EXPECT_TRUE(link_.status(kSwitchedOn + 5s).has_zoom_changed);
+  EXPECT_TRUE(link_.status(kCameraLinkStart + 5s).has_zoom_changed);
 }
 
 TEST_F(CameraLink, PrefersACameraToTheAutopilot) {
   for (int i = 0; i < 20; ++i) {
     const Duration now = 1s + i * 200ms;
     fly_until(now);
-    hear(vehicle_.field_of_view(VehicleTime{now}, 62.0F + static_cast<float>(i), kUnknown), now);
-    if (i >= 10) hear(camera_.field_of_view(VehicleTime{now}, 30.0F, kUnknown), now);
+    hear(vehicle_.field_of_view(VehicleTime{now}, 62.0F + static_cast<float>(i), kNotTold), now);
+    if (i >= 10) hear(camera_.field_of_view(VehicleTime{now}, 30.0F, kNotTold), now);
   }
   EXPECT_NEAR(*sink_.fields_of_view.back().horizontal_rad, 30.0 * kRadPerDeg, 1e-6);
   EXPECT_EQ(counts().other_cameras, 9U);
@@ -159,25 +159,25 @@ TEST_F(CameraLink, HearsNoEchoOfTheCameraThatGeolocIs) {
 }
 
 TEST_F(CameraLink, AsksTheCameraItselfForItsFieldOfView) {
-  EXPECT_EQ(asked(camera_).count({271, kCamera}), 1U);
+  EXPECT_EQ(asked(camera_).count({271, kFirstCamera}), 1U);
   config_.zoom_rate_hz = 0.0;
   begin_anew();
-  EXPECT_EQ(asked(camera_).count({271, kCamera}), 0U);
+  EXPECT_EQ(asked(camera_).count({271, kFirstCamera}), 0U);
   config_ = {};
   config_.zoom_camera = kSecondCamera;
   begin_anew();
-  EXPECT_EQ(asked(camera_).count({271, kCamera}), 0U) << "another is wanted";
+  EXPECT_EQ(asked(camera_).count({271, kFirstCamera}), 0U) << "another is wanted";
 }
 
 TEST_F(CameraLink, TellsOfACameraThatZoomsWithoutSayingWhatItSees) {
   fly_until(3s);
-  hear(camera_.zoom_level(kUnknown), 3s);
+  hear(camera_.zoom_level(kNotTold), 3s);
   hear(camera_.zoom_level(20.0F), 3s);
-  EXPECT_FALSE(link_.status(kSwitchedOn + 3s).zooms_untold);
+  EXPECT_FALSE(link_.status(kCameraLinkStart + 3s).zooms_untold);
   hear(camera_.zoom_level(55.0F), 3s);
-  EXPECT_TRUE(link_.status(kSwitchedOn + 3s).zooms_untold);
+  EXPECT_TRUE(link_.status(kCameraLinkStart + 3s).zooms_untold);
   hear(camera_.field_of_view(VehicleTime{3s}, 60.0F, 40.0F), 3s);
-  EXPECT_FALSE(link_.status(kSwitchedOn + 3s).zooms_untold);
+  EXPECT_FALSE(link_.status(kCameraLinkStart + 3s).zooms_untold);
 }
 
 /// A replay of a flight with a camera must give what it gave before cameras were listened to, but for zooms.
@@ -186,7 +186,7 @@ TEST_F(CameraLink, TeachesNothingOfTheVehiclesClock) {
   testing::CollectingSink sink;
   const auto both_hear = [&](const Bytes& frame, Duration now) {
     hear(frame, now);
-    without.consume(kSwitchedOn + now, frame.data(), frame.size(), sink);
+    without.consume(kCameraLinkStart + now, frame.data(), frame.size(), sink);
   };
   both_hear(vehicle_.heartbeat(), 1s);
   for (int i = 0; i < 100; ++i) {
@@ -195,7 +195,8 @@ TEST_F(CameraLink, TeachesNothingOfTheVehiclesClock) {
     hear(camera_.field_of_view(VehicleTime{now}, 60.0F, 40.0F), now);
   }
   for (const Duration at : {2s, 7s})
-    EXPECT_EQ(link_.clock().to_vehicle(kSwitchedOn + at), without.clock().to_vehicle(kSwitchedOn + at));
+    EXPECT_EQ(link_.clock().to_vehicle(kCameraLinkStart + at),
+              without.clock().to_vehicle(kCameraLinkStart + at));
 }
 
 }  // namespace

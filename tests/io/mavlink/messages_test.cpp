@@ -55,6 +55,8 @@ class Comparison {
 
   /// The recorded vehicles have none.
   void operator()(const RangeMessage&) const { EXPECT_EQ(row_[0], "DISTANCE_SENSOR"); }
+  void operator()(const FieldOfViewMessage&) const { EXPECT_EQ(row_[0], "CAMERA_FOV_STATUS"); }
+  void operator()(const ZoomLevel&) const { EXPECT_EQ(row_[0], "CAMERA_SETTINGS"); }
 
   void operator()(const GimbalMessage& found) const {
     const char* const names[] = {"MOUNT_STATUS", "MOUNT_ORIENTATION", "GIMBAL_DEVICE_ATTITUDE_STATUS"};

@@ -51,6 +51,12 @@ struct LoggedGimbal {
   GimbalYaw yaw = GimbalYaw::kFromNorth;
 };
 
+/// The camera's focal length, as its equivalent for film of 35 mm, from that time on.
+struct LoggedFocalLength {
+  VehicleTime time;
+  double equivalent_mm = 0.0;
+};
+
 enum class CameraEventKind {
   kExposure,   ///< a picture was taken
   kVideoStart  ///< a video's recording was begun (MAV_CMD_VIDEO_START_CAPTURE)
@@ -75,12 +81,12 @@ struct FlightLog {
   std::vector<LoggedGimbal> gimbal;
   std::vector<CameraEvent> camera_events;
   std::vector<UtcPair> utc;
-  std::optional<double> home_height_msl_m;  ///< of the first home that is told
-  std::optional<double> focal_35mm_mm;      ///< the camera's equivalent for film of 35 mm, where it is told
-  bool is_utc_local = false;                ///< the times called UTC are of an unknown time zone
-  std::size_t skipped_bytes = 0;            ///< that belong to no record: damage, or a truncated end
-  std::size_t dropouts = 0;                 ///< gaps that the log itself reports
-  std::vector<std::string> assumptions;     ///< what the log left open, and what was taken, for people
+  std::optional<double> home_height_msl_m;       ///< of the first home that is told
+  std::vector<LoggedFocalLength> focal_lengths;  ///< the first that is told, and each change of it
+  bool is_utc_local = false;                     ///< the times called UTC are of an unknown time zone
+  std::size_t skipped_bytes = 0;                 ///< that belong to no record: damage, or a truncated end
+  std::size_t dropouts = 0;                      ///< gaps that the log itself reports
+  std::vector<std::string> assumptions;          ///< what the log left open, and what was taken, for people
 };
 
 }  // namespace geoloc::io

@@ -31,6 +31,7 @@ struct CameraView {
   std::optional<double> camera_height_msl_m;  ///< nullopt where the autopilot tells none
   std::optional<Geodetic> image_centre;       ///< on the ground; nullopt where it is not
   std::optional<double> ground_height_msl_m;
+  std::optional<Eigen::Vector2d> focal_px;  ///< [fx, fy] then; nullopt: the calibration's
   Eigen::Quaterniond ned_from_camera = Eigen::Quaterniond::Identity();  ///< camera: forward, right, down
   std::vector<CameraTarget> targets;
 };

@@ -9,6 +9,7 @@
 #include "geoloc/io/recording/tlog.hpp"
 #include "geoloc/sim/flight/gimbal_trajectory.hpp"
 #include "geoloc/sim/flight/trajectory.hpp"
+#include "geoloc/sim/flight/zoom_trajectory.hpp"
 
 namespace geoloc::sim {
 
@@ -20,9 +21,13 @@ struct Flight {
   Trajectory truth;
   HostTime booted_at;  ///< on the clock of the log's stamps: when the vehicle's clock read zero
   std::optional<GimbalTrajectory> gimbal = std::nullopt;  ///< what carries the camera; unset: the body
+  std::optional<ZoomTrajectory> zoom = std::nullopt;      ///< unset: it does not
 
   /// The camera's true pose, by that in the body or, on a gimbal, in its axes; nullopt outside the truth.
   std::optional<Rigid3d> enu_from_camera(VehicleTime time, const Rigid3d& carrier_from_camera) const;
+
+  /// How far it has zoomed in; 1 is its calibration.
+  double zoom_at(VehicleTime time) const { return zoom ? zoom->zoom(time) : 1.0; }
 
   HostTime host_time(VehicleTime time) const { return booted_at + time.time_since_epoch(); }
 };

@@ -16,7 +16,8 @@ enum class RandomStream : std::uint64_t {
   kLink,
   kScene,
   kRangefinder,
-  kGimbal
+  kGimbal,
+  kZoom
 };
 
 /// Seed of one stream of a run (splitmix64): neighbouring seeds give unrelated streams.

@@ -58,6 +58,9 @@ std::uint64_t run_seed(const RunSettings& settings, const Flight& flight);
 
 TrueCamera make_true_camera(const RunSettings& settings, std::uint64_t run_seed);
 
+/// A camera whose focal length is so many times as long.
+CameraModel zoomed(const CameraModel& camera, double zoom);
+
 /// The camera as the estimator is told.
 CameraConfig nominal_camera(const RunSettings& settings);
 

@@ -39,7 +39,8 @@ class SimulatedDetector {
                     std::vector<Eigen::Vector3d> targets_in_enu, std::uint64_t seed);
 
   /// Detections of one frame, the most confident first. Confidence is drawn alike for targets and clutter.
-  std::vector<Detection> detect(const Rigid3d& enu_from_camera);
+  /// `zoom`: by which the focal length is longer.
+  std::vector<Detection> detect(const Rigid3d& enu_from_camera, double zoom = 1.0);
 
  private:
   int draw_clutter_count();

@@ -27,6 +27,7 @@ class FlightCamera {
     HostTime exposed_at;
     Rigid3d enu_from_camera;
     Eigen::Vector2d blur_px;
+    double zoom;
   };
 
   /// Flight and clock must outlive it. Throws std::invalid_argument naming every problem of the camera.
@@ -36,7 +37,7 @@ class FlightCamera {
   /// The view of the picture that will be stamped so; draws its latency.
   View draw_view(HostTime stamp);
 
-  void render(const View& view, cv::Mat& bgr) { renderer_.render(view.enu_from_camera, view.blur_px, bgr); }
+  void render(const View& view, cv::Mat& bgr);
 
  private:
   Rigid3d enu_from_camera(HostTime time) const;

@@ -50,6 +50,7 @@ class MavlinkVehicle {
   };
   struct Command {
     std::uint16_t id = 0;
+    std::uint8_t component = 0;  ///< that is commanded; 0: all
     float parameter1 = 0.0F;
     float parameter2 = 0.0F;
   };
@@ -62,11 +63,13 @@ class MavlinkVehicle {
   void set_data_stream(const io::Frame& frame, HostTime now, const FlightClock& clock);
   void start(Stream& stream, Duration interval, HostTime now, const FlightClock& clock);
 
+  bool is_for_us(std::uint8_t system, std::uint8_t component) const;
+  bool has_camera() const;
   void send_heartbeat(HostTime now, const FlightClock& clock);
   void play(Stream& stream, HostTime now, const FlightClock& clock);
   void repeat_latest(Stream& stream, HostTime now, const FlightClock& clock);
   void tell(const RecordedMessage& message, HostTime sent_at, double speed);
-  void send(std::uint32_t message_id, const Payload& payload);
+  void send(std::uint32_t message_id, const Payload& payload, std::uint8_t component = kAddress.component);
   Stream* find(float message_id);
 
   HostTime booted_at_;
@@ -76,6 +79,7 @@ class MavlinkVehicle {
   std::vector<Stream> streams_;
   std::vector<Datagram> outgoing_;
   std::uint8_t sequence_ = 0;
+  std::uint8_t camera_sequence_ = 0;
   std::uint64_t messages_sent_ = 0;
   bool was_asked_ = false;
 };

@@ -20,7 +20,8 @@ struct RecordedMessage {
 /// All messages of one type that the autopilot sent, in the order of time.
 struct RecordedStream {
   std::uint32_t message_id = 0;
-  Duration period{};  ///< mean; zero for a single message
+  std::uint8_t component_id = 1;  ///< that tells it: the autopilot, or the camera its field of view
+  Duration period{};              ///< mean; zero for a single message
   std::vector<RecordedMessage> messages;
 
   /// The last one sent at or before a time, else the first.

@@ -46,6 +46,9 @@ class CameraRenderer {
   CameraRenderer(CameraRenderer&&) noexcept;
   CameraRenderer& operator=(CameraRenderer&&) noexcept;
 
+  /// From now on through that camera, whose image is as large: it has zoomed.
+  void look_through(const CameraModel& camera);
+
   /// bgr: CV_8UC3 of the camera's size, allocated where it is not yet. enu_from_camera: pose in the middle of
   /// the exposure; where it is not finite the picture is grey. blur_px: how far the picture moves during the
   /// exposure (see image_motion_px()); longer than kLongestBlur_px is cut, not finite is none.
