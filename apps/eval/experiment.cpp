@@ -45,6 +45,10 @@ std::optional<CalibrationError> calibration_error(const Session& session, const 
   error.sigma_boresight_deg =
       Eigen::Vector2d(estimated->sigma(Index::kBoresight), estimated->sigma(Index::kBoresight + 1)) *
       kDegPerRad;
+  if (estimated->has_unknown_focal()) {
+    error.focal_percent = estimated->focal_percent() - run.errors.focal_percent;
+    error.sigma_focal_percent = estimated->sigma_focal_percent();
+  }
   return error;
 }
 

@@ -53,6 +53,9 @@ struct CalibrationError {
   double sigma_latency_s = 0.0;
   Eigen::Vector2d boresight_deg = Eigen::Vector2d::Zero();  ///< about the camera's x and y
   Eigen::Vector2d sigma_boresight_deg = Eigen::Vector2d::Zero();
+  /// What is left of the focal length's error, where that is an unknown [%].
+  std::optional<double> focal_percent;
+  double sigma_focal_percent = 0.0;
   double injected_latency_s = 0.0;
   Eigen::Vector2d injected_boresight_deg = Eigen::Vector2d::Zero();
 };

@@ -32,16 +32,24 @@ void add_calibration(Summary& summary, const CalibrationError& error) {
     summary.worst_boresight_error_deg = std::max(summary.worst_boresight_error_deg, boresight_deg);
     summary.worst_sigmas = std::max(summary.worst_sigmas, boresight_deg / error.sigma_boresight_deg[axis]);
   }
+  if (error.focal_percent)
+    summary.worst_sigmas =
+        std::max(summary.worst_sigmas, std::abs(*error.focal_percent) / error.sigma_focal_percent);
 }
 
 nlohmann::ordered_json to_json(const std::optional<CalibrationError>& error) {
   if (!error) return nullptr;
-  return {{"latency_s", error->latency_s},
-          {"sigma_latency_s", error->sigma_latency_s},
-          {"boresight_x_deg", error->boresight_deg.x()},
-          {"boresight_y_deg", error->boresight_deg.y()},
-          {"sigma_boresight_x_deg", error->sigma_boresight_deg.x()},
-          {"sigma_boresight_y_deg", error->sigma_boresight_deg.y()}};
+  nlohmann::ordered_json json{{"latency_s", error->latency_s},
+                              {"sigma_latency_s", error->sigma_latency_s},
+                              {"boresight_x_deg", error->boresight_deg.x()},
+                              {"boresight_y_deg", error->boresight_deg.y()},
+                              {"sigma_boresight_x_deg", error->sigma_boresight_deg.x()},
+                              {"sigma_boresight_y_deg", error->sigma_boresight_deg.y()}};
+  if (error->focal_percent) {
+    json["focal_percent"] = *error->focal_percent;
+    json["sigma_focal_percent"] = error->sigma_focal_percent;
+  }
+  return json;
 }
 
 std::vector<std::string> flights_of(const std::vector<RunResult>& results, const std::string& set) {

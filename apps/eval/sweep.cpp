@@ -47,6 +47,23 @@ Sweep boresight() {
   return sweep;
 }
 
+/// The estimator is told the equivalent for film of 35 mm.
+Sweep focal_length() {
+  constexpr double kSigma_percent = 3.0;
+  Sweep sweep{"focal",
+              "Focal length",
+              "true focal length longer than told, %",
+              false,
+              {-6.0, -3.0, -1.0, 0.0, 1.0, 3.0, 6.0}};
+  sweep.apply = [](double value, const sim::Flight&, sim::RecordingSettings& settings) {
+    settings.run.errors.focal_percent = value;
+  };
+  sweep.configure = [](double, EstimationConfig& config) {
+    config.geolocator.joint.prior.sigma_focal_percent = kSigma_percent;
+  };
+  return sweep;
+}
+
 Sweep telemetry_rate() {
   Sweep sweep{"telemetry",
               "Telemetry rate",
@@ -236,6 +253,7 @@ Sweep late_start() {
 const std::vector<Sweep>& all_sweeps() {
   static const std::vector<Sweep> sweeps{latency(),
                                          boresight(),
+                                         focal_length(),
                                          telemetry_rate(),
                                          height(),
                                          hills(),

@@ -89,11 +89,12 @@ void keep_one_camera(std::vector<NamedStill>& stills, const FlightFacts& facts, 
                    [&](const NamedStill& named) { return camera_of(named.still) == camera; });
   const io::Lens lens = *most_common_lens(stills);
   plan.camera = lens.intrinsics;
+  if (!facts.lens) plan.sigma_focal_percent = io::sigma_focal_percent(lens.source);
   if (lens.source == io::FocalSource::k35mm)
-    plan.assumptions.push_back(fmt::format(
-        "the focal length is the pictures' equivalent for film of 35 mm, {:.0f} px to some 3 %: heights, and "
-        "positions away from the image's middle, are as uncertain (--camera gives a calibration)",
-        lens.intrinsics.fx_px));
+    plan.assumptions.push_back(
+        fmt::format("the focal length is the pictures' equivalent for film of 35 mm, {:.0f} px to {:g} %, an "
+                    "unknown of the calibration (--camera gives a better one)",
+                    lens.intrinsics.fx_px, plan.sigma_focal_percent));
 }
 
 /// Those that differ by less are of one focal length, as it is focused.

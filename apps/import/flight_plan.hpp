@@ -38,6 +38,7 @@ struct Exposure {
 struct FlightPlan {
   std::vector<Exposure> exposures;
   CameraIntrinsics camera;
+  double sigma_focal_percent = 0.0;         ///< of the camera's focal length; 0: it is a calibration's
   std::optional<double> take_off_height_m;  ///< in the pictures' datum, where that is known
   CameraMount mount;                        ///< of the exposures that have none of their own
   bool is_synchronised = false;             ///< the receiver knew when each picture was exposed

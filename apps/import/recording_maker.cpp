@@ -18,6 +18,7 @@ constexpr int kRepetitions = 3;
 nlohmann::ordered_json settings_for(const FlightPlan& plan) {
   constexpr double kReceiverLagSigma_s = 0.1, kCourseSigma_deg = 10.0, kConfirm = 0.99;
   nlohmann::ordered_json prior{{"sigma_latency_s", plan.is_synchronised ? 0.0 : kReceiverLagSigma_s}};
+  if (plan.sigma_focal_percent > 0.0) prior["sigma_focal_percent"] = plan.sigma_focal_percent;
   if (plan.is_heading_assumed) prior["sigma_boresight_z_deg"] = kCourseSigma_deg;  // wind
   nlohmann::ordered_json joint{{"confirm_probability", kConfirm}, {"prior", std::move(prior)}};
   if (plan.sigma_attitude_deg > 0.0) joint["sigma_attitude_deg"] = plan.sigma_attitude_deg;

@@ -13,6 +13,9 @@
 namespace geoloc::apps {
 namespace {
 
+/// Of the equivalent for film of 35 mm: videos are cut from the sensor, and not all from its whole width.
+constexpr double kFilmSigma_percent = 5.0;
+
 /// As of a picture that tells no more.
 std::optional<io::Lens> film_lens(const VideoFacts& video, double focal_35mm_mm) {
   io::PictureTags tags;
@@ -24,9 +27,9 @@ std::optional<io::Lens> film_lens(const VideoFacts& video, double focal_35mm_mm)
 
 }  // namespace
 
-CameraConfig video_camera(const std::string& camera_file, const VideoFacts& video,
-                          const std::vector<io::LoggedFocalLength>& told,
-                          std::vector<std::string>& assumptions) {
+VideoCamera video_camera(const std::string& camera_file, const VideoFacts& video,
+                         const std::vector<io::LoggedFocalLength>& told,
+                         std::vector<std::string>& assumptions) {
   if (told.size() > 1)
     assumptions.emplace_back(
         "the camera zooms during the video: the calibration is taken to be that of the log's first focal "
@@ -40,7 +43,7 @@ CameraConfig video_camera(const std::string& camera_file, const VideoFacts& vide
           fmt::format("{}: is of pictures of {} x {}, and the video's are {} x {}: calibrate "
                       "the camera in its video mode",
                       camera_file, size.width_px, size.height_px, video.width_px, video.height_px));
-    return camera;
+    return {camera, 0.0};
   }
   const auto lens = told.empty() ? std::nullopt : film_lens(video, told.front().equivalent_mm);
   if (!lens)
@@ -49,14 +52,13 @@ CameraConfig video_camera(const std::string& camera_file, const VideoFacts& vide
         "height "
         "and horizontal_fov_deg will do: docs/formats.md, camera.json)");
   assumptions.push_back(
-      fmt::format("the focal length is the log's equivalent for film of 35 mm, {:.0f} px to some 5 % where "
-                  "the whole width of the "
-                  "sensor is used: heights, and positions away from the image's middle, are as uncertain "
-                  "(--camera gives a "
-                  "calibration)",
-                  lens->intrinsics.fx_px));
-  CameraConfig camera;
-  camera.intrinsics = lens->intrinsics;
+      fmt::format("the focal length is the log's equivalent for film of 35 mm, {:.0f} px to {:g} % where the "
+                  "whole width of the sensor is used, an unknown of the calibration (--camera gives a better "
+                  "one)",
+                  lens->intrinsics.fx_px, kFilmSigma_percent));
+  VideoCamera camera;
+  camera.config.intrinsics = lens->intrinsics;
+  camera.sigma_focal_percent = kFilmSigma_percent;
   return camera;
 }
 

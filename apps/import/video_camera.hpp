@@ -11,11 +11,17 @@
 
 namespace geoloc::apps {
 
+/// A video's camera, and how well its focal length is known.
+struct VideoCamera {
+  CameraConfig config;
+  double sigma_focal_percent = 0.0;  ///< 1-sigma; 0: it is a calibration's
+};
+
 /// The camera of `camera_file` or, where none is named, what the log tells of its lens; what that leaves open
 /// is added to `assumptions`. Throws std::runtime_error where nothing tells, or the file is of another size.
-CameraConfig video_camera(const std::string& camera_file, const VideoFacts& video,
-                          const std::vector<io::LoggedFocalLength>& told,
-                          std::vector<std::string>& assumptions);
+VideoCamera video_camera(const std::string& camera_file, const VideoFacts& video,
+                         const std::vector<io::LoggedFocalLength>& told,
+                         std::vector<std::string>& assumptions);
 
 /// The focal length [fx, fy] at a time of the log, by the camera's and by how much longer than the first one
 /// the log tells it to be; nullopt where it is the camera's.

@@ -76,7 +76,7 @@ struct VideoProgram {
   std::vector<std::string> assumptions;
   LogSource log;
   VideoFacts facts;
-  CameraConfig camera;
+  VideoCamera camera;
   VideoOffset offset;
   LookSource source;
   std::unique_ptr<RecordingMaker> recording;

@@ -15,9 +15,12 @@ namespace {
 using namespace std::chrono_literals;
 
 /// How far video and log may be apart is the latency that the joint method finds.
-nlohmann::ordered_json settings_for(const LogSource& log, const VideoOffset& offset) {
+nlohmann::ordered_json settings_for(const VideoFlight& flight) {
+  const LogSource& log = flight.log;
   constexpr double kCourseSigma_deg = 10.0;  // wind
-  nlohmann::ordered_json prior{{"sigma_latency_s", offset.sigma_s}};
+  nlohmann::ordered_json prior{{"sigma_latency_s", flight.offset.sigma_s}};
+  const double sigma_focal_percent = flight.camera.sigma_focal_percent;
+  if (sigma_focal_percent > 0.0) prior["sigma_focal_percent"] = sigma_focal_percent;
   nlohmann::ordered_json joint;
   if (log.track && log.track->is_heading_assumed) prior["sigma_boresight_z_deg"] = kCourseSigma_deg;
   if (log.track && log.track->sigma_attitude_deg > 0.0)
@@ -107,11 +110,11 @@ void write_telemetry(const LogSource& log, io::RecordingWriter& writer) {
 
 std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& writer) {
   const LogSource& log = flight.log;
-  CameraConfig camera = flight.camera;
+  CameraConfig camera = flight.camera.config;
   if (log.track && !log.track->gimbal.empty()) camera.mount = told_mount(camera.mount);
   if (log.track && !log.track->assumed_gimbal.empty()) camera.mount.kind = MountKind::kFixed;
   writer.write_camera(camera);
-  writer.write_config(settings_for(log, flight.offset).dump(2));
+  writer.write_config(settings_for(flight).dump(2));
   write_telemetry(log, writer);
   std::size_t left_out = 0;
   for (const VideoLook& look : flight.looks) {

@@ -7,6 +7,7 @@
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "import/found_file.hpp"
 #include "import/log_source.hpp"
+#include "import/video_camera.hpp"
 #include "import/video_offset.hpp"
 
 namespace geoloc::apps {
@@ -14,7 +15,7 @@ namespace geoloc::apps {
 /// What a video's recording is made of.
 struct VideoFlight {
   const LogSource& log;
-  const CameraConfig& camera;
+  const VideoCamera& camera;
   const VideoOffset& offset;
   const std::vector<VideoLook>& looks;
 };

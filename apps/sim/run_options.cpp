@@ -86,6 +86,9 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kHiddenGroup, "--latency-s", errors.latency_s, "Frame stamp minus exposure, s")->capture_default_str();
   add(kHiddenGroup, "--jitter-s", errors.latency_jitter_s, "1-sigma of the latency, per frame, s")
       ->capture_default_str();
+  add(kHiddenGroup, "--focal-error-percent", errors.focal_percent,
+      "The true focal length is so much longer than camera.json's, %")
+      ->capture_default_str();
   add(kHiddenInRecordingsGroup, "--clock-step-s", errors.clock_step_s,
       "The camera's clock is ahead by so much from the middle on, s")
       ->capture_default_str();

@@ -18,6 +18,8 @@ void visit_fields(Visitor& v, CalibrationPrior& prior) {
           "A frame shows the world this long before its stamp");
   v.field("height_m", prior.height_m, Range::closed(-100, 100), "m",
           "The camera is this much higher above the ground than reported");
+  v.field("focal_percent", prior.focal_percent, Range::closed(-50, 50), "%",
+          "The camera's focal length is this much longer than it is said to be");
   v.field("sigma_boresight_x_deg", prior.sigma_boresight_x_deg, kSigma, "deg",
           "1-sigma of boresight_x_deg before the flight; 0 freezes it");
   v.field("sigma_boresight_y_deg", prior.sigma_boresight_y_deg, kSigma, "deg",
@@ -29,6 +31,9 @@ void visit_fields(Visitor& v, CalibrationPrior& prior) {
   v.field("sigma_height_m", prior.sigma_height_m, kSigma, "m",
           "Scale of height_m before the flight; the tails are heavy, since the take-off may lie elsewhere; 0 "
           "freezes it");
+  v.field("sigma_focal_percent", prior.sigma_focal_percent, Range::closed(0, 50), "%",
+          "1-sigma of focal_percent before the flight: 0.3 for a calibrated camera, 2 for a data sheet's "
+          "field of view, 3 to 5 for an equivalent for film of 35 mm; 0 freezes it");
 }
 
 }  // namespace geoloc

@@ -33,6 +33,10 @@ FixJacobians jacobians_of(const GroundFix& fix, const FrameView& view, double he
   jacobians.calibration.col(Index::kLatency) =
       -velocity.head<2>() - ground_from_height * velocity.z() - ground_from_turn * view.turn.rate_in_enu;
   jacobians.calibration.col(Index::kHeight) = ground_from_height;
+  // A longer focal length draws every ray to the optical axis a: R (x, y, 1) becomes R (x, y, 1 + e), which
+  // is v + e (v . a) a for a direction of any length.
+  const Eigen::Vector3d axis = view.enu_from_camera.rotation * Eigen::Vector3d::UnitZ();
+  jacobians.calibration.col(Index::kFocal) = ground_from_direction * (v.dot(axis) * axis);
   jacobians.calibration.middleCols<2>(Index::kOffset).setIdentity();
   jacobians.height = ground_from_height;
 

@@ -51,6 +51,7 @@ bool FrameViewer::is_settled(const FrameStamp& stamp, VehicleTime time) const {
 
 FrameView calibrated(FrameView nominal_view, const Calibration& calibration, double lift_m) {
   calibration.turn(nominal_view.enu_from_camera);
+  nominal_view.focal_ratio = calibration.focal_ratio();
   nominal_view.lifted_m = lift_m - nominal_view.terrain_m;
   nominal_view.enu_from_camera.translation.z() += nominal_view.lifted_m;
   return nominal_view;

@@ -30,7 +30,8 @@ inline double reported_height_m(const FrameView& nominal_view, const ProjectorCo
          nominal_view.terrain_m;
 }
 
-/// The view turned by the boresight, and lifted by `lift_m` above the ground below the vehicle (terrain_m).
+/// The view turned by the boresight, with the calibration's focal length, and lifted by `lift_m` above the
+/// ground below the vehicle (terrain_m).
 FrameView calibrated(FrameView nominal_view, const Calibration& calibration, double lift_m);
 
 }  // namespace geoloc

@@ -156,12 +156,12 @@ bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_
   return pixel && camera_.contains(*pixel, margin_px) && project(*pixel, enu_from_camera, ground).has_value();
 }
 
-/// A copy is made only where the camera zooms.
+/// A copy is made only where the camera zooms, or is known to be longer.
 template <typename Ask>
 auto Projector::zoomed_as(const FrameView& view, const Ask& ask) const {
-  if (!view.focal_px) return ask(*this);
+  if (!view.focal_px && view.focal_ratio == 1.0) return ask(*this);
   Projector zoomed = *this;
-  zoomed.camera_ = camera_.with_focal_length(*view.focal_px);
+  zoomed.camera_ = camera_.with_focal_length(focal_px(view));
   return ask(zoomed);
 }
 

@@ -36,6 +36,10 @@ PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
   return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
 }
 
+/// What looks tell of the focal length is off by so much in flights where it was right (docs/method.md), more
+/// than their noise explains: the autopilot's tilts are in it, which the image shows by the focal length.
+constexpr double kSigmaOfFoundFocal = 0.006;
+
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
 constexpr double kSigmaOfFoundLatency_s = 0.1;
 
@@ -99,6 +103,8 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
   camera.covariance.diagonal().segment<3>(Index::kBoresight).array() += attitude * attitude;
   camera.covariance(Index::kLatency, Index::kLatency) +=
       config_.sigma_state_lag_s * config_.sigma_state_lag_s;
+  if (camera.has_unknown_focal())
+    camera.covariance(Index::kFocal, Index::kFocal) += std::pow(kSigmaOfFoundFocal, 2);
   return camera;
 }
 

@@ -109,6 +109,8 @@ class ImportedStills(ImportTest):
         camera = json.loads((self.recording / "camera.json").read_text())
         self.assertEqual((camera["width"], camera["height"]), (WIDTH, HEIGHT))
         self.assertAlmostEqual(camera["fx"], 20 / 34.61 * WIDTH)
+        prior = json.loads((self.recording / "config.json").read_text())["joint"]["prior"]
+        self.assertEqual(prior["sigma_focal_percent"], 3)
 
     @unittest.skipUnless((REAL / "dji_stills").exists(), "the real pictures are not here")
     def test_real_pictures_are_what_exiftool_reads(self):
@@ -384,6 +386,7 @@ class IncompleteStills(ImportTest):
         self.assert_refused(self.import_stills(), "a.jpg", "tells no focal length", "--camera")
         camera = {"width": WIDTH, "height": HEIGHT, "fx": 2345.5, "fy": 2345.5, "cx": 1999.5, "cy": 1499.5}
         self.assert_imported(self.import_stills("--camera", self.write("camera.json", camera)))
+        self.assertNotIn("sigma_focal_percent", json.loads((self.recording / "config.json").read_text())["joint"]["prior"])
         self.assertEqual(json.loads((self.recording / "camera.json").read_text())["fx"], 2345.5)
 
 

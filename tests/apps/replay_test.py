@@ -117,6 +117,49 @@ class Priors(AppTest):
             self.assertIn("--known-points" if "paper" in options else "missing.geojson", result.err)
 
 
+class FocalLength(AppTest):
+    """A camera that looks ahead shows what its focal length is off by, where that is told to be uncertain."""
+
+    ERROR_PERCENT = 3
+
+    def replay(self, name, *options, sigma_percent=0):
+        recording, out = self.folder / name, self.folder / f"{name}.geojson"
+        if not recording.exists():
+            done = run("geoloc_sim", "--record", recording, "--mount-pitch-deg", -50, "--seed", 1, *options)
+            self.assertEqual(done.status, 0, done.err)
+        config = self.write("config.json", {"joint": {"prior": {"sigma_focal_percent": sigma_percent}}})
+        result = run("geoloc_replay", recording, "--config", config, "--out", out)
+        self.assertEqual(result.status, 0, result.err)
+        found = int(re.search(r"found (\d+) /", result.err)[1])
+        return json.loads(out.read_text())["calibration"], found, rmse_m(result.err)
+
+    def test_is_found_and_costs_nothing(self):
+        _, found, right_m = self.replay("right")
+        wrong = ("--focal-error-percent", self.ERROR_PERCENT)
+        calibration, found_unknown, unknown_m = self.replay("wrong", *wrong, sigma_percent=3)
+        focal = calibration["focal_percent"]
+        self.assertLess(focal["sigma"], 0.8)
+        self.assertLess(abs(focal["value"] - self.ERROR_PERCENT), 2 * focal["sigma"])
+        self.assertGreaterEqual(found_unknown, found)
+        self.assertLess(unknown_m, 1.5 * right_m)
+        _, _, frozen_m = self.replay("wrong")
+        self.assertGreater(frozen_m, 4 * right_m)
+
+    def test_is_no_unknown_where_it_is_certain(self):
+        calibration, _, _ = self.replay("right")
+        self.assertNotIn("focal_percent", calibration)
+
+    def test_is_learnt_for_the_next_flight(self):
+        first, _, first_m = self.replay("wrong", "--focal-error-percent", self.ERROR_PERCENT, sigma_percent=3)
+        self.write("first.json", first)
+        out = self.folder / "second.geojson"
+        again = run("geoloc_replay", self.folder / "wrong", "--calibration", self.folder / "first.json", "--out", out)
+        self.assertEqual(again.status, 0, again.err)
+        second = json.loads(out.read_text())["calibration"]
+        self.assertAlmostEqual(second["focal_percent"]["value"], first["focal_percent"]["value"], delta=first["focal_percent"]["sigma"])
+        self.assertLess(rmse_m(again.err), 1.1 * first_m)
+
+
 @unittest.skipUnless(shutil.which("gdal_translate"), "needs gdal-bin")
 class Ground(AppTest):
     """An elevation model of the simulated hills, as users have them, helps where hills are steep."""

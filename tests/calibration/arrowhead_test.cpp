@@ -601,8 +601,8 @@ TEST(ArrowheadSolver, StatesThePriorInRadiansMetresAndSeconds) {
   const ArrowheadSolver solver(prior, DriftConfig{});
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   CalibrationVector mean, sigma;
-  mean << kDegree, -2.0 * kDegree, 3.0 * kDegree, 0.1, -0.4, 0.0, 0.0;
-  sigma << 4.0 * kDegree, 5.0 * kDegree, 0.0, 0.2, 0.6, 0.7, 0.7;
+  mean << kDegree, -2.0 * kDegree, 3.0 * kDegree, 0.1, -0.4, 0.0, 0.0, 0.0;
+  sigma << 4.0 * kDegree, 5.0 * kDegree, 0.0, 0.2, 0.6, 0.0, 0.7, 0.7;
   const Calibration stated = solver.prior({-0.4, 0.6, 0.7});
   EXPECT_LT((stated.mean - mean).norm(), 1e-12);
   for (int i = 0; i < CalibrationIndex::kSize; ++i) {

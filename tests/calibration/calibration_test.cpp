@@ -74,7 +74,7 @@ TEST(Calibration, TurnsAboutAllAxesAtOnceByTheLengthOfTheVector) {
 
 TEST(Calibration, TurnsACameraAndMovesItNowhere) {
   Calibration calibration;
-  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 7.0, -8.0;
+  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 0.02, 7.0, -8.0;
   Rigid3d pose = looking_down();
   calibration.turn(pose);
   EXPECT_EQ(pose.translation, looking_down().translation);
@@ -83,7 +83,7 @@ TEST(Calibration, TurnsACameraAndMovesItNowhere) {
 
 TEST(Calibration, TurnsBackByItsOpposite) {
   Calibration calibration, opposite;
-  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 7.0, -8.0;
+  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 0.02, 7.0, -8.0;
   opposite.mean = -calibration.mean;
   Rigid3d pose = looking_down();
   calibration.turn(pose);
@@ -93,13 +93,26 @@ TEST(Calibration, TurnsBackByItsOpposite) {
 
 TEST(Calibration, NamesItsComponents) {
   Calibration calibration;
-  calibration.mean << 1, 2, 3, 4, 5, 6, 7;
-  calibration.covariance.diagonal() << 1, 4, 9, 16, 25, 36, 49;
+  calibration.mean << 1, 2, 3, 4, 5, 6, 7, 8;
+  calibration.covariance.diagonal() << 1, 4, 9, 16, 25, 36, 49, 64;
   EXPECT_EQ(calibration.boresight_rad(), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(calibration.latency_s(), 4.0);
   EXPECT_EQ(calibration.height_m(), 5.0);
-  EXPECT_EQ(calibration.offset_m(), Eigen::Vector2d(6, 7));
+  EXPECT_EQ(calibration.offset_m(), Eigen::Vector2d(7, 8));
   for (int i = 0; i < Index::kSize; ++i) EXPECT_EQ(calibration.sigma(i), i + 1.0);
+}
+
+TEST(Calibration, TellsTheFocalLengthAsARatioAndInPercent) {
+  Calibration calibration;
+  EXPECT_EQ(calibration.focal_ratio(), 1.0);
+  EXPECT_EQ(calibration.focal_percent(), 0.0);
+  EXPECT_FALSE(calibration.has_unknown_focal());
+  calibration.mean[Index::kFocal] = std::log(1.03);
+  calibration.covariance(Index::kFocal, Index::kFocal) = 1e-4;
+  EXPECT_NEAR(calibration.focal_ratio(), 1.03, 1e-15);
+  EXPECT_NEAR(calibration.focal_percent(), 3.0, 1e-12);
+  EXPECT_NEAR(calibration.sigma_focal_percent(), 1.03, 1e-12);  // a percent of 103
+  EXPECT_TRUE(calibration.has_unknown_focal());
 }
 
 }  // namespace

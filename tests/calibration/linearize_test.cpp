@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/projection/projector.hpp"
@@ -49,13 +51,14 @@ class ExactFix {
     view.enu_from_camera = enu_from_camera(view.vehicle, mount_, CameraOrientation::kComposed);
     Calibration{calibration, CalibrationMatrix::Zero()}.turn(view.enu_from_camera);
     view.enu_from_camera.translation.z() += calibration[CalibrationIndex::kHeight];
+    view.focal_ratio = std::exp(calibration[CalibrationIndex::kFocal]);
     return view;
   }
 
   GroundFix fix(const FrameView& view, double ground_m = 0.0) const {
     ProjectorConfig config;
     config.ground_height_above_home_m = ground_m;
-    return *Projector(config, CameraIntrinsics{}).project(regime_.pixel, view.enu_from_camera);
+    return *Projector(config, CameraIntrinsics{}).project(regime_.pixel, view);
   }
 
   Eigen::Vector2d position(const CalibrationVector& calibration, const NodeVector& drift) const {
@@ -72,6 +75,7 @@ class JacobianLaws : public ::testing::TestWithParam<Regime> {};
 TEST_P(JacobianLaws, AreTheNumericDerivatives) {
   const ExactFix exact(GetParam());
   CalibrationVector calibration = CalibrationVector::Zero();
+  calibration[CalibrationIndex::kFocal] = std::log(0.95);
   const NodeVector drift = NodeVector::Zero();
   const FrameView view = exact.view(calibration, drift);
   const FixJacobians jacobians = jacobians_of(exact.fix(view), view, view.enu_from_camera.translation.z());

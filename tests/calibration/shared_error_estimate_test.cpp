@@ -112,13 +112,16 @@ TEST_F(SharedErrors, WhitenJacobians) {
   for (const bool is_learnt : {false, true}) {
     if (is_learnt) learn();
     Eigen::Matrix<double, 3, SharedError::kCalibrationSize> by_calibration;
-    by_calibration << 1, -2, 3, 0.5, -1, 0.3, 2, -1, 4, 1.5, -0.7, 0.2, 1, -3, 2;
+    by_calibration << 1, -2, 3, 0.5, -1, 2.5, 0.3, 2, -1, 4, 1.5, -3.5, -0.7, 0.2, 1, -3, 2, 0.9;
     Eigen::Matrix<double, 3, kNodeSize> by_drift;
     for (int i = 0; i < kNodeSize; ++i) by_drift.col(i) << 1.0 - i, 0.3 * i, std::cos(i);
     const SharedError::PointRow row = estimate_.whitened<3>(by_calibration, by_drift);
     const NodeMatrix node = is_learnt ? solution().newest_node_covariance() : NodeMatrix(NodeMatrix::Zero());
     const Eigen::Matrix3d expected =
-        by_calibration * estimate_.calibration.covariance.topLeftCorner<5, 5>() * by_calibration.transpose() +
+        by_calibration *
+            estimate_.calibration.covariance
+                .topLeftCorner<SharedError::kCalibrationSize, SharedError::kCalibrationSize>() *
+            by_calibration.transpose() +
         by_drift * node * by_drift.transpose();
     EXPECT_LT((row * row.transpose() - expected).norm(), 1e-12);
     EXPECT_EQ((row.rightCols<SharedError::kSize - SharedError::kFrame>().norm()), 0.0);

@@ -406,15 +406,18 @@ TEST(JointCalibration, OfTheCameraBeginsAsThePriorAndTheAutopilotsOwnErrors) {
   prior.sigma_boresight_z_deg = 3.0;
   prior.sigma_latency_s = 0.04;
   prior.sigma_height_m = 0.7;
+  prior.focal_percent = -4.0;
+  prior.sigma_focal_percent = 2.0;
   config.joint.sigma_attitude_bias_deg = 0.9;
   config.joint.sigma_state_lag_s = 0.03;
   const Calibration calibration = *Geolocator(config).calibration();
   constexpr double kDegree = kPi / 180.0;
   CalibrationVector mean, sigma;
   const double offset = std::sqrt(0.5 * config.joint.constant_share) * config.joint.horizontal_accuracy_m;
-  mean << 0.3 * kDegree, -0.2 * kDegree, 1.0 * kDegree, 0.12, 0.5, 0.0, 0.0;
+  mean << 0.3 * kDegree, -0.2 * kDegree, 1.0 * kDegree, 0.12, 0.5, std::log(0.96), 0.0, 0.0;
   sigma << std::hypot(1.0, 0.9) * kDegree, std::hypot(2.0, 0.9) * kDegree, std::hypot(3.0, 0.9) * kDegree,
-      std::hypot(0.04, 0.03), 0.7 / std::sqrt(2.0), offset, offset;  // the height's is a Cauchy distribution
+      std::hypot(0.04, 0.03), 0.7 / std::sqrt(2.0), 0.02 / 0.96, offset,
+      offset;  // the height's is a Cauchy distribution
   EXPECT_LT((calibration.mean - mean).norm(), 1e-12);
   for (int i = 0; i < CalibrationIndex::kSize; ++i) EXPECT_NEAR(calibration.sigma(i), sigma[i], 1e-12) << i;
 }

@@ -275,7 +275,7 @@ TEST_F(LooksFromAbove, MoveWithTheSharedErrors) {
   expected(1, 0) = kUp_m * prior.sigma_boresight_x_deg * kDegree;
   expected(0, 1) = kUp_m * prior.sigma_boresight_y_deg * kDegree;
   expected.col(3) = -prior.sigma_latency_s * Eigen::Vector2d(3.0, 4.0);
-  EXPECT_LT((look.jacobian.leftCols<5>() - expected).norm(), 1e-9);
+  EXPECT_LT((look.jacobian.leftCols<SharedError::kCalibrationSize>() - expected).norm(), 1e-9);
   EXPECT_LT((look.jacobian.col(SharedError::kTime) + 0.05 * Eigen::Vector2d(3.0, 4.0)).norm(), 1e-12);
 }
 
@@ -291,6 +291,14 @@ TEST_F(LooksFromAbove, MoveWithTheHeightTheMoreTheFartherAsideTheyAre) {
   EXPECT_LT((look.observation.node_jacobian.col(2) - per_metre).norm(), 1e-9);
 }
 
+/// A longer focal length makes less of what is aside.
+TEST_F(LooksFromAbove, MoveWithTheFocalLengthTowardsTheMiddleOfTheImage) {
+  const Look look = make({located(6.0, 5.0)}).at_rest[0];
+  EXPECT_LT((look.observation.calibration_jacobian.col(CalibrationIndex::kFocal) + Eigen::Vector2d(6.0, 5.0))
+                .norm(),
+            1e-9);
+}
+
 /// The ray through a pole 8 m high passes over the ground behind it: by similar triangles.
 TEST_F(LooksFromAbove, ShowWhatIsHigherWhereItsRayMeetsTheGround) {
   const Eigen::Vector2d foot(3.0, -4.2);
@@ -303,7 +311,7 @@ TEST_F(LooksFromAbove, ShowWhatIsHigherWhereItsRayMeetsTheGround) {
 /// What the fix already holds of the calibration is undone in the sums' values; the offset was never in it.
 /// The latency and height that count are those that the view was located with, not the estimate.
 TEST_F(LooksFromAbove, AreCorrectedByOffsetAndDrift) {
-  errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.5, 0.7, -0.4;
+  errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.5, 0.0, 0.7, -0.4;
   view_.latency_s = 0.08;
   view_.lifted_m = 0.3;
   drift_.setZero();
@@ -319,9 +327,10 @@ TEST_F(LooksFromAbove, AreCorrectedByOffsetAndDrift) {
                 .norm(),
             1e-9);
   const FixJacobians jacobians = jacobians_of(detection.fix, view_, kUp_m);
-  Eigen::Matrix<double, 5, 1> applied;
-  applied << 0.01, -0.02, 0.03, 0.08, 0.3;
-  const Eigen::Vector2d value = Eigen::Vector2d(6.0, 5.0) - jacobians.calibration.leftCols<5>() * applied;
+  Eigen::Matrix<double, SharedError::kCalibrationSize, 1> applied;
+  applied << 0.01, -0.02, 0.03, 0.08, 0.3, 0.0;
+  const Eigen::Vector2d value =
+      Eigen::Vector2d(6.0, 5.0) - jacobians.calibration.leftCols<SharedError::kCalibrationSize>() * applied;
   EXPECT_LT((look.observation.value - value).norm(), 1e-9);
   EXPECT_EQ(look.observation.calibration_jacobian, jacobians.calibration);
   EXPECT_EQ(look.observation.node_jacobian, jacobians.node);
@@ -385,7 +394,8 @@ class LooksAtKnownObjects : public LooksFromAbove {
     view_.enu_from_camera.translation = {2.0, -1.0, kPlane_m + kUp_m};
     view_.vehicle.velocity_in_enu = {3.0, 4.0, 1.2};
     view_.turn.rate_in_enu = {0.3, -0.1, 0.4};
-    errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.8, 0.7, -0.4;
+    errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.8, 0.05, 0.7, -0.4;
+    view_.focal_ratio = std::exp(0.05);
     drift_.head<2>() << 0.2, 0.3;
   }
 
@@ -409,7 +419,10 @@ class LooksAtKnownObjects : public LooksFromAbove {
         truth.calibration.segment<2>(CalibrationIndex::kOffset) + truth.drift.head<2>();
     camera.translation.z() +=
         truth.calibration[CalibrationIndex::kHeight] - view_.lifted_m - kPlane_m + truth.drift[kNodeUp];
-    return *projector_.reproject(Eigen::Vector3d(truth.place), camera);
+    FrameView view;
+    view.enu_from_camera = camera;
+    view.focal_ratio = std::exp(truth.calibration[CalibrationIndex::kFocal]);
+    return *projector_.reproject(Eigen::Vector3d(truth.place), view);
   }
 
   static Eigen::Quaterniond turn(const Eigen::Vector3d& by) {
@@ -422,7 +435,7 @@ class LooksAtKnownObjects : public LooksFromAbove {
     LocatedDetection located;
     located.detection.box = {pixel.x() + 0.5 - 0.5 * kSize_px, pixel.y() + 0.5 - 0.5 * kSize_px, kSize_px,
                              kSize_px};
-    located.fix = *projector_.project(pixel, view_.enu_from_camera);
+    located.fix = *projector_.project(pixel, view_);
     return maker_.make_look(located, kShare, frame(), errors_);
   }
 

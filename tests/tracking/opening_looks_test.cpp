@@ -63,7 +63,7 @@ class OpeningFrames : public ::testing::Test {
   }
 
   void set_calibration(const Eigen::Vector3d& boresight, double latency_s, double height_m) {
-    errors_.calibration.mean << boresight, latency_s, height_m, 0.3, -0.2;
+    errors_.calibration.mean << boresight, latency_s, height_m, 0.0, 0.3, -0.2;
   }
 
   std::optional<FrameView> nominal_view(double time_s, double latency_s, const StateProvider& state) const {

@@ -121,9 +121,12 @@ TEST_F(RestingObjectSums, OfOneLookStateWhatIsSharedToo) {
   look.jacobian.middleCols<2>(SharedError::kFrame) << 0.3, 0.0, 0.1, 0.4;
   look.jacobian.col(SharedError::kTime) << -0.2, 0.5;
   begin_sums(object, look, errors_);
-  const auto by_calibration = look.observation.calibration_jacobian.leftCols<5>();
+  const auto by_calibration = look.observation.calibration_jacobian.leftCols<SharedError::kCalibrationSize>();
   const Eigen::Matrix2d shared =
-      by_calibration * errors_.calibration.covariance.topLeftCorner<5, 5>() * by_calibration.transpose();
+      by_calibration *
+      errors_.calibration.covariance
+          .topLeftCorner<SharedError::kCalibrationSize, SharedError::kCalibrationSize>() *
+      by_calibration.transpose();
   const Eigen::Matrix2d frame = (Eigen::Matrix2d() << 0.09, 0.03, 0.03, 0.17).finished();
   const Eigen::Matrix2d time = (Eigen::Matrix2d() << 0.04, -0.1, -0.1, 0.25).finished();
   const Eigen::Matrix2d expected = object.pixel_covariance.topLeftCorner<2, 2>() + shared + frame + time;

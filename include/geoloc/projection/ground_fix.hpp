@@ -82,6 +82,7 @@ struct FrameView {
   CameraTurn turn;
   std::optional<Eigen::Vector2d> focal_px = std::nullopt;  ///< [fx, fy] then; nullopt: the calibration's
   double sigma_focal_share = 0.0;  ///< 1-sigma of it, as a share of it, while the camera zooms
+  double focal_ratio = 1.0;        ///< the true focal length by that
 };
 
 }  // namespace geoloc

@@ -68,7 +68,8 @@ class Projector {
 
   /// The camera's focal length [fx, fy] at a frame.
   Eigen::Vector2d focal_px(const FrameView& of) const {
-    return of.focal_px.value_or(Eigen::Vector2d(camera_.intrinsics().fx_px, camera_.intrinsics().fy_px));
+    const CameraIntrinsics& camera = camera_.intrinsics();
+    return of.focal_ratio * of.focal_px.value_or(Eigen::Vector2d(camera.fx_px, camera.fy_px));
   }
 
   /// With the calibration's focal length; what else it tells holds for every frame.

@@ -24,17 +24,23 @@ std::string text_of(const ordered_json& json) {
 ordered_json calibration(const Calibration& calibration) {
   using Index = CalibrationIndex;
   auto rows = ordered_json::array();
-  const auto add = [&](const char* name, const char* unit, int index, double scale, int digits) {
+  const auto add_row = [&](const char* name, const char* unit, double value, double sigma, int digits) {
     rows.push_back({{"name", name},
                     {"unit", unit},
-                    {"value", decimals(calibration.mean[index] * scale, digits)},
-                    {"sigma", decimals(calibration.sigma(index) * scale, digits)},
+                    {"value", decimals(value, digits)},
+                    {"sigma", decimals(sigma, digits)},
                     {"digits", digits}});
+  };
+  const auto add = [&](const char* name, const char* unit, int index, double scale, int digits) {
+    add_row(name, unit, calibration.mean[index] * scale, calibration.sigma(index) * scale, digits);
   };
   add("Image delay", "ms", Index::kLatency, 1e3, 1);
   add("Camera turned about its x axis", "°", Index::kBoresight, kDegPerRad, 3);
   add("Camera turned about its y axis", "°", Index::kBoresight + 1, kDegPerRad, 3);
   add("Camera turned about its z axis", "°", Index::kBoresight + 2, kDegPerRad, 3);
+  if (calibration.has_unknown_focal())
+    add_row("Error of the focal length", "%", calibration.focal_percent(), calibration.sigma_focal_percent(),
+            2);
   add("Error of the vehicle's height", "m", Index::kHeight, 1.0, 3);
   add("Error of the vehicle's position, east", "m", Index::kOffset, 1.0, 3);
   add("Error of the vehicle's position, north", "m", Index::kOffset + 1, 1.0, 3);

@@ -74,6 +74,9 @@ ordered_json calibration_to_json(const std::optional<Calibration>& calibration) 
   add("height_offset_m", Index::kHeight, 1.0, 4);
   add("offset_east_m", Index::kOffset, 1.0, 4);
   add("offset_north_m", Index::kOffset + 1, 1.0, 4);
+  if (calibration->has_unknown_focal())
+    json["focal_percent"] = {{"value", decimals(calibration->focal_percent(), 4)},
+                             {"sigma", decimals(calibration->sigma_focal_percent(), 4)}};
   return json;
 }
 

@@ -86,6 +86,19 @@ std::optional<Lens> film_lens(const PictureTags& tags) {
 
 }  // namespace
 
+/// A lens is made to some 2 % of the focal length that its maker states.
+double sigma_focal_percent(FocalSource source) {
+  switch (source) {
+    case FocalSource::kCalibration:
+      return 0.3;
+    case FocalSource::kSensor:
+      return 2.0;
+    case FocalSource::k35mm:
+      return 3.0;
+  }
+  return 3.0;
+}
+
 std::optional<Lens> lens_of(const PictureTags& tags) {
   for (const auto& told : {&dewarp_lens, &calibrated_lens, &sensor_lens, &film_lens}) {
     const auto lens = told(tags);

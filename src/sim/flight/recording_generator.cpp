@@ -78,6 +78,7 @@ std::string injected_json(const Flight& flight, const RecordingSettings& setting
       {"clock_step_s", run.errors.clock_step_s},
       {"late_start_s", run.errors.late_start_s},
       {"mount_error_deg", {{"roll", error_deg.x()}, {"pitch", error_deg.y()}, {"yaw", error_deg.z()}}},
+      {"focal_percent", run.errors.focal_percent},
       {"distortion", camera.intrinsics.distortion},
       {"lens_is_calibrated", run.errors.lens_is_calibrated},
       {"terrain",

@@ -47,6 +47,7 @@ std::vector<std::string> RunSettings::problems() const {
   found.require(std::abs(errors.late_start_s) <= 10.0, "late_start must lie in [-10, 10] s");
   found.require(errors.mount_sigma_deg >= 0.0 && errors.mount_sigma_deg <= 45.0,
                 "mount_sigma must lie in [0, 45] deg");
+  found.require(std::abs(errors.focal_percent) <= 50.0, "focal_error must lie in [-50, 50] %");
   if (errors.mount_error_deg) {
     for (const double angle_deg : *errors.mount_error_deg) {
       found.require(std::abs(angle_deg) <= 180.0, "mount_error must lie in [-180, 180] deg");
@@ -78,7 +79,10 @@ TrueCamera make_true_camera(const RunSettings& settings, std::uint64_t run_seed)
   // Turned as a whole in the body: at pitch -90 deg the mount's roll and yaw turn about the same axis.
   const Rigid3d nominal = body_from_camera(settings.camera.mount);
   const Eigen::Quaterniond turned = rotation(error_deg * kRadPerDeg) * nominal.rotation;
-  return {settings.camera.intrinsics, {turned.normalized(), nominal.translation}, error_deg};
+  CameraIntrinsics intrinsics = settings.camera.intrinsics;
+  intrinsics.fx_px *= 1.0 + 0.01 * settings.errors.focal_percent;
+  intrinsics.fy_px *= 1.0 + 0.01 * settings.errors.focal_percent;
+  return {intrinsics, {turned.normalized(), nominal.translation}, error_deg};
 }
 
 CameraModel zoomed(const CameraModel& camera, double zoom) {

@@ -102,6 +102,18 @@ TEST(CalibrationFile, OfAnEarlierFlightIsThePriorOfTheNext) {
   }
 }
 
+/// Files of flights that took it as known have none.
+TEST(CalibrationFile, TellsTheFocalLengthWhereItWasEstimated) {
+  CalibrationPrior told;
+  told.sigma_focal_percent = 5.0;
+  EXPECT_EQ(parse_calibration(kLearnt, "flight1.geojson", told, 0.4).sigma_focal_percent, 5.0);
+  std::string learnt = kLearnt;
+  learnt.insert(1, R"("focal_percent": {"value": -2.5, "sigma": 0.4}, )");
+  const CalibrationPrior prior = parse_calibration(learnt, "flight1.geojson", told, 0.4);
+  EXPECT_DOUBLE_EQ(prior.focal_percent, -2.5);
+  EXPECT_DOUBLE_EQ(prior.sigma_focal_percent, 0.4);
+}
+
 TEST(CalibrationFile, IsRefusedWithTheReason) {
   const auto read = [](const char* text) { return refusal([&] { parse_calibration(text, "f", {}, 0.4); }); };
   EXPECT_NE(read("{\"calibration\": null}").find("--method joint"), std::string::npos);

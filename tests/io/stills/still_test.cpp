@@ -175,5 +175,11 @@ TEST(Still, FocalLengthIsTheMostTrustworthyOneTold) {
   EXPECT_FALSE(still({{"FocalLengthIn35mmFilm", "0"}}).lens);
 }
 
+TEST(Still, FocalLengthIsTheBetterKnownTheMoreTrustworthyItsSource) {
+  EXPECT_GT(sigma_focal_percent(FocalSource::kCalibration), 0.0);
+  EXPECT_LT(sigma_focal_percent(FocalSource::kCalibration), sigma_focal_percent(FocalSource::kSensor));
+  EXPECT_LT(sigma_focal_percent(FocalSource::kSensor), sigma_focal_percent(FocalSource::k35mm));
+}
+
 }  // namespace
 }  // namespace geoloc::io

@@ -33,6 +33,9 @@ struct Lens {
   FocalSource source = FocalSource::k35mm;
 };
 
+/// 1-sigma of a focal length from there [%].
+double sigma_focal_percent(FocalSource source);
+
 /// nullopt where no focal length is told.
 std::optional<Lens> lens_of(const PictureTags& tags);
 

@@ -23,6 +23,7 @@ struct CameraErrors {
   std::optional<std::array<double, 3>>
       mount_error_deg;             ///< [deg] about forward, right, down: instead of a drawn one
   bool lens_is_calibrated = true;  ///< the estimator is told the lens distortion
+  double focal_percent = 0.0;      ///< the true focal length is so much longer than the estimator is told
   double clock_step_s = 0.0;       ///< [s] the camera's clock is ahead by so much from the run's middle on
   double late_start_s = 0.0;       ///< [s] stamps of the first kStreamStart_s are later by so much
 };

@@ -27,6 +27,7 @@ const MEANINGS = {
   "Camera turned about its x axis": "The camera is turned by this about the axis to the image's right, against the mount that is set. geoloc corrects for it.",
   "Camera turned about its y axis": "The camera is turned by this about the axis to the image's bottom, against the mount that is set. geoloc corrects for it.",
   "Camera turned about its z axis": "The camera is turned by this about its optical axis, against the mount that is set and the vehicle's compass. geoloc corrects for it.",
+  "Error of the focal length": "The camera's focal length is this much longer than its settings say. geoloc corrects for it. Seen straight down from one height, it cannot be told from an error of the height.",
   "Error of the vehicle's height": "The camera is this much higher above the ground than the vehicle reports. It is a correction, not an altitude.",
   "Error of the vehicle's position, east": "The vehicle is this much further east than it reports. Without known points the error common to all positions cannot be seen.",
   "Error of the vehicle's position, north": "The vehicle is this much further north than it reports. Without known points the error common to all positions cannot be seen.",
