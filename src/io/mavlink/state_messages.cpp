@@ -6,12 +6,15 @@
 #include <cmath>
 #include <limits>
 
+#include "geoloc/geometry/angles.hpp"
 #include "pack.hpp"
 
 namespace geoloc::io {
 namespace {
 
-constexpr MavAddress kVehicle{1, MAV_COMP_ID_AUTOPILOT1};
+MavAddress autopilot_of(std::uint8_t system) {
+  return {system, MAV_COMP_ID_AUTOPILOT1};
+}
 
 std::uint32_t milliseconds(VehicleTime time) {
   return static_cast<std::uint32_t>(
@@ -37,7 +40,7 @@ OutgoingFrame StateWriter::heartbeat() {
   fields.autopilot = MAV_AUTOPILOT_GENERIC;
   fields.system_status = MAV_STATE_ACTIVE;
   fields.mavlink_version = 3;
-  return pack(kVehicle, sequence_++, true, mavlink_msg_heartbeat_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_heartbeat_encode_status, fields);
 }
 
 OutgoingFrame StateWriter::attitude(const AttitudeSample& sample) {
@@ -51,7 +54,7 @@ OutgoingFrame StateWriter::attitude(const AttitudeSample& sample) {
   fields.rollspeed = static_cast<float>(rates.x());
   fields.pitchspeed = static_cast<float>(rates.y());
   fields.yawspeed = static_cast<float>(rates.z());
-  return pack(kVehicle, sequence_++, true, mavlink_msg_attitude_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_attitude_encode_status, fields);
 }
 
 OutgoingFrame StateWriter::position(const PositionSample& sample) {
@@ -66,7 +69,8 @@ OutgoingFrame StateWriter::position(const PositionSample& sample) {
   fields.vy = scaled<std::int16_t>(velocity.x(), 1e2);
   fields.vz = scaled<std::int16_t>(-velocity.z(), 1e2);
   fields.hdg = std::numeric_limits<std::uint16_t>::max();  // not told
-  return pack(kVehicle, sequence_++, true, mavlink_msg_global_position_int_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_global_position_int_encode_status,
+              fields);
 }
 
 OutgoingFrame StateWriter::gnss(const PositionSample& sample, const GnssClaim& claim) {
@@ -81,7 +85,17 @@ OutgoingFrame StateWriter::gnss(const PositionSample& sample, const GnssClaim& c
   fields.satellites_visible = std::numeric_limits<std::uint8_t>::max();  // not told
   fields.h_acc = millimetres(claim.sigma_horizontal_m);
   fields.v_acc = millimetres(claim.sigma_height_m);
-  return pack(kVehicle, sequence_++, true, mavlink_msg_gps_raw_int_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_gps_raw_int_encode_status, fields);
+}
+
+OutgoingFrame StateWriter::gimbal(VehicleTime time, const EulerAngles& angles_from_nose) {
+  mavlink_mount_orientation_t fields{};
+  fields.time_boot_ms = milliseconds(time);
+  fields.roll = static_cast<float>(angles_from_nose.roll_rad * kDegPerRad);
+  fields.pitch = static_cast<float>(angles_from_nose.pitch_rad * kDegPerRad);
+  fields.yaw = static_cast<float>(angles_from_nose.yaw_rad * kDegPerRad);
+  fields.yaw_absolute = std::numeric_limits<float>::quiet_NaN();  // not told
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_mount_orientation_encode_status, fields);
 }
 
 }  // namespace geoloc::io

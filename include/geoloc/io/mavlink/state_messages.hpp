@@ -20,6 +20,9 @@ struct GnssClaim {
 /// Each call uses one sequence number. Times are rounded to the milliseconds that the messages have.
 class StateWriter {
  public:
+  /// `system`: the vehicle's id, 1 to 255.
+  explicit StateWriter(std::uint8_t system = 1) : system_(system) {}
+
   OutgoingFrame heartbeat();
 
   /// ATTITUDE; rates that the sample does not tell are NaN.
@@ -32,7 +35,11 @@ class StateWriter {
   /// GPS_RAW_INT of the same place.
   OutgoingFrame gnss(const PositionSample& sample, const GnssClaim& claim);
 
+  /// MOUNT_ORIENTATION, whose yaw counts from the vehicle's nose.
+  OutgoingFrame gimbal(VehicleTime time, const EulerAngles& angles_from_nose);
+
  private:
+  std::uint8_t system_;
   std::uint8_t sequence_ = 0;
 };
 
