@@ -22,6 +22,7 @@ struct RunOptions {
   std::array<double, 5> distortion{};
   bool uncalibrated_lens = false;
   GimbalOptions gimbal;
+  bool has_sei = false;  ///< telemetry in the video's frames
   RunSettings settings;
 };
 
