@@ -20,10 +20,23 @@ std::optional<io::Lens> film_lens(const VideoFacts& video, double focal_35mm_mm)
   return io::lens_of(tags);
 }
 
+CameraConfig camera_of_view(const VideoFacts& video, const ToldCamera& told,
+                            std::vector<std::string>& assumptions) {
+  CameraConfig camera;
+  camera.intrinsics =
+      CameraIntrinsics::from_field_of_view(video.width_px, video.height_px, *told.horizontal_fov_deg);
+  if (told.is_on_gimbal) camera.mount = CameraMount::on_gimbal();
+  assumptions.push_back(fmt::format(
+      "the camera is the one that the video tells, with a nominal field of view of {:.1f} deg, {}: heights, "
+      "and positions away from the image's middle, are as uncertain (--camera gives a calibration)",
+      *told.horizontal_fov_deg, told.is_on_gimbal ? "on a gimbal" : "looking straight down"));
+  return camera;
+}
+
 }  // namespace
 
-CameraConfig video_camera(const std::string& camera_file, const VideoFacts& video,
-                          std::optional<double> focal_35mm_mm, std::vector<std::string>& assumptions) {
+CameraConfig video_camera(const std::string& camera_file, const VideoFacts& video, const ToldCamera& told,
+                          std::vector<std::string>& assumptions) {
   if (!camera_file.empty()) {
     const CameraConfig camera = io::read_camera_file(camera_file);
     const CameraIntrinsics& size = camera.intrinsics;
@@ -32,9 +45,14 @@ CameraConfig video_camera(const std::string& camera_file, const VideoFacts& vide
           fmt::format("{}: is of pictures of {} x {}, and the video's are {} x {}: calibrate "
                       "the camera in its video mode",
                       camera_file, size.width_px, size.height_px, video.width_px, video.height_px));
+    if (told.is_on_gimbal && camera.mount.kind != MountKind::kGimbal)
+      assumptions.push_back(camera_file +
+                            ": says that the camera is fixed in the vehicle, so how the gimbal looks is not "
+                            "used (\"mount\": {\"kind\": \"gimbal\"})");
     return camera;
   }
-  const auto lens = focal_35mm_mm ? film_lens(video, *focal_35mm_mm) : std::nullopt;
+  if (told.horizontal_fov_deg) return camera_of_view(video, told, assumptions);
+  const auto lens = told.focal_35mm_mm ? film_lens(video, *told.focal_35mm_mm) : std::nullopt;
   if (!lens)
     throw std::runtime_error(
         "the camera's focal length is not known: give its calibration with --camera (a file with width, "

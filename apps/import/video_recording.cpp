@@ -107,7 +107,8 @@ std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& w
         std::chrono::floor<std::chrono::microseconds>((log.begins_at + since_log_begin).time_since_epoch()) +
         HostTime{};
     frame.detections = look.detections;
-    frame.time_quality = "file";
+    frame.time_quality = io::to_string(flight.time_quality);
+    frame.time_sigma_s = flight.time_sigma_s;
     if (log.track && !log.track->gimbal.empty()) {
       frame.mount = gimbal_mount(*log.track, flight.camera.mount, log.track->begin + since_log_begin);
       if (!frame.mount) {
