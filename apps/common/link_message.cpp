@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/count_list.hpp"
+#include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {
 namespace {

@@ -93,6 +93,25 @@ TEST(VideoVehicle, SessionsTakeItForAVehicle) {
   EXPECT_EQ(session.geolocator().state().counters().position_steps, 0U);
 }
 
+TEST(VideoVehicle, PositionsMayBeMuchOlderThanAttitudes) {
+  Session session(EstimationConfig{});
+  VideoVehicle vehicle(1);
+  for (HostTime made_at = kFilmed; made_at < kFilmed + 20s; made_at += 33ms) {
+    const Duration attitude_age = (made_at - kFilmed) % 20ms + 3ms;
+    const Duration position_age = (made_at - kFilmed) % 200ms + 250ms;
+    for (const ToldMessage& told : told_by(vehicle, made_at, record_at(made_at, attitude_age, position_age)))
+      session.add_telemetry(told.at, told.bytes.data(), told.bytes.size());
+    if (made_at < kFilmed + 2s) continue;
+    EXPECT_TRUE(session.process({made_at - 500ms, {}, 0.02}));
+  }
+  const io::LinkStatus link = session.link().status(kFilmed + 20s);
+  EXPECT_EQ(link.clock.steps, 0U);
+  EXPECT_EQ(link.telemetry.suspect_stamps, 0U);
+  EXPECT_NEAR(link.attitude_rate_hz, 30.0, 1.5);
+  EXPECT_NEAR(link.position_rate_hz, 5.0, 1.0);  // the last ones are under way
+  EXPECT_EQ(session.geolocator().state().counters().position_steps, 0U);
+}
+
 TEST(VideoVehicle, AttitudesAndAnglesPassUnchanged) {
   VideoVehicle vehicle(7);
   io::FrameParser parser;
