@@ -18,8 +18,8 @@ std::optional<VideoTelemetry> telemetry_of(GstBuffer* picture);
 /// The picture, of which the caller has the only reference, gets the record.
 void attach_telemetry(GstBuffer* picture, std::string_view record);
 
-/// Attaches what H.265's pictures carry to those that leave a parser: that of GStreamer 1.22 does it for H.264
-/// alone.
+/// Attaches what H.265's pictures carry to those that leave a parser: that of GStreamer 1.22 does it for
+/// H.264 alone.
 void read_telemetry_at(GstPad* parsed);
 
 /// Writes what is attached to an encoder's pictures into its stream, which must be H.264's byte stream in
