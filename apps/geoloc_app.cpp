@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -20,6 +21,7 @@
 #include "app/recorder.hpp"
 #include "app/resources.hpp"
 #include "app/steady_text.hpp"
+#include "app/telemetry_input.hpp"
 #include "app/vehicle_reports.hpp"
 #include "app/video_tally.hpp"
 #include "common/command_line.hpp"
@@ -60,6 +62,7 @@ struct Program {
                   recorder->add_telemetry(received_at, frame, size);
                   reports.on_telemetry(frame, size);
                 }),
+        telemetry(telemetry_settings(), inputs.socket.get(), *inputs.guard, *inputs.video, clock),
         outputs(inputs.detector->class_names(), {}) {
     add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
     if (!given.outputs.wants_raw_fixes()) session.history().only_count_fixes();
@@ -67,6 +70,12 @@ struct Program {
                           inputs.detector->class_names(), outputs);
     if (page) outputs.add(std::make_unique<io::LivePageSink>(page));
     recorder.emplace(given.record_folder, [this](io::RecordingWriter& writer) { write_settings(writer); });
+  }
+
+  TelemetryInput::Settings telemetry_settings() const {
+    const auto system = static_cast<std::uint8_t>(inputs.config.estimation.mavlink.system_id);
+    const MountKind mount = inputs.config.estimation.geolocator.camera.mount.kind;
+    return {options.is_udp_given, std::max<std::uint8_t>(1, system), mount == MountKind::kGimbal};
   }
 
   void write_settings(io::RecordingWriter& writer) const {
@@ -88,10 +97,17 @@ struct Program {
   LiveInputs inputs;
   VehicleReports reports;
   Session session;
+  TelemetryInput telemetry;
   Outputs outputs;
   std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
   std::optional<Recorder> recorder;    ///< made last: a run that cannot begin leaves no folder
 };
+
+std::string telemetry_words(const LiveOptions& options) {
+  return (options.is_udp_given ? "listening for MAVLink on UDP "
+                               : "telemetry is the video's own where it carries any, else MAVLink on UDP ") +
+         options.udp;
+}
 
 void record_notes(Program& program) {
   for (io::NotedObject& noted : program.outputs.notes()->take_added())
@@ -129,8 +145,8 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
   };
   DetectionWorker worker(*inputs.video, *inputs.detector,
                          inputs.config.estimation.geolocator.camera.intrinsics, program.clock, on_detected);
-  LiveRun run(program.session, *inputs.socket, *inputs.guard, worker, *program.recorder, program.reports,
-              program.clock, [&](const PendingFrame& frame, bool is_located) {
+  LiveRun run(program.session, program.telemetry, worker, *program.recorder, program.reports, program.clock,
+              [&](const PendingFrame& frame, bool is_located) {
                 if (is_located) object_pictures.assign(program.session.geolocator(), frame.captured_at);
                 program.outputs.post_frame(program.session, frame, is_located);
               });
@@ -146,12 +162,13 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
       const io::VideoStatus video = inputs.video->status();
       const std::string doubt_now =
           doubt_of(program.session, tally_of(video, worker.stats()), now - started_at);
-      const auto state = live_status(now, started_at, program.session, *inputs.video, worker, run,
-                                     damage.observe(now, video), doubt.show(now, doubt_now));
+      const auto state = live_status(now, started_at, program.session, program.telemetry, *inputs.video,
+                                     worker, run, damage.observe(now, video), doubt.show(now, doubt_now));
       tell_all(library_words.take(), console);
       tell_all(program.outputs.take_messages(), console);
       tell_all(program.recorder->take_messages(), console);
       tell_all(program.session.take_news(), console);
+      tell_all(program.telemetry.take_messages(), console);
       console.update(state);
       program.outputs.post_status(state);
       if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
@@ -210,7 +227,7 @@ int main(int argc, char** argv) {
   if (!program) return kDone;
 
   const StopSignal stop;
-  console.say("listening for MAVLink on UDP " + options.udp + "; Ctrl-C ends the run and writes its results");
+  console.say(telemetry_words(options) + "; Ctrl-C ends the run and writes its results");
   if (!program->inputs.remarks.empty()) console.say(program->inputs.remarks);
   if (program->inputs.signing_store && !program->inputs.signing_store->remark().empty())
     console.say(program->inputs.signing_store->remark());

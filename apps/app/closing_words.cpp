@@ -14,6 +14,7 @@ std::vector<std::string> closing_words(const VideoEnd& video, const io::Detector
       slowness(video.tally),
       list_of_counts("frames left out",
                      {{video.detection.wrong_size, "of another size than the camera's calibration"},
+                      {video.run.untold, "without telemetry"},
                       {video.run.out_of_order, "older than one before, or stamped in the future"},
                       {video.detection.overflowed + video.run.overflowed, "for too many waited"}})};
   if (video.detection.detected > 0 && video.detection.detections == 0)

@@ -60,7 +60,8 @@ void DetectionWorker::detect(const io::VideoFrame& frame) {
   }
   if (!fits_calibration(frame.bgr)) return;
   const HostTime started = clock_.now();
-  DetectedFrame result{frame.captured_at, frame.received_at, frame.time_quality, detector_.detect(frame.bgr)};
+  DetectedFrame result{frame.captured_at, frame.received_at, frame.time_quality, detector_.detect(frame.bgr),
+                       frame.telemetry};
   const double took_ms = 1e3 * seconds(clock_.now() - started);
   if (on_detected_) on_detected_(frame, result.detections);
 

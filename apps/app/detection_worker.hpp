@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -23,6 +24,7 @@ struct DetectedFrame {
   HostTime received_at;
   io::TimeQuality time_quality = io::TimeQuality::kArrival;
   std::vector<Detection> detections;
+  std::optional<io::FrameTelemetry> telemetry;  ///< where the frame carries any
 };
 
 /// Takes the newest frame of a source, detects, and queues the result, in a thread of its own. Damaged frames

@@ -24,6 +24,16 @@ void add_line(const std::string& line, std::string& text) {
   if (!line.empty()) text += (text.empty() ? "" : "\n") + line;
 }
 
+/// A run whose video carries telemetry needs no port: one that nobody asked for may be taken.
+void open_socket(const LiveOptions& options, LiveInputs& inputs) {
+  try {
+    inputs.socket = std::make_unique<io::UdpSocket>(io::parse_udp_endpoint(options.udp));
+  } catch (const std::runtime_error& error) {
+    if (options.is_udp_given) throw;
+    add_line(std::string(error.what()) + ": only telemetry in the video can be used", inputs.remarks);
+  }
+}
+
 void guard_link(LiveInputs& inputs) {
   const io::MavlinkConfig& config = inputs.config.estimation.mavlink;
   std::optional<io::LinkSigning> signing;
@@ -64,7 +74,7 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
     add_line(confidence_note(options.detector, configured, inputs.config.detection.confidence),
              inputs.remarks);
   });
-  attempt([&] { inputs.socket = std::make_unique<io::UdpSocket>(io::parse_udp_endpoint(options.udp)); });
+  attempt([&] { open_socket(options, inputs); });
   attempt([&] { guard_link(inputs); });
   attempt([&] { inputs.video = make_video_source(options, inputs.config.video, clock); });
   if (!faults.empty()) throw std::runtime_error(faults);

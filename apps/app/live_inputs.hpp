@@ -22,7 +22,7 @@ struct LiveInputs {
   std::string remarks;  ///< on the configuration, for the user; may be empty
   std::vector<io::TrueTarget> truth;
   std::unique_ptr<io::Detector> detector;
-  std::unique_ptr<io::UdpSocket> socket;
+  std::unique_ptr<io::UdpSocket> socket;        ///< nullptr: nobody asked for it, and the port is taken
   std::unique_ptr<SigningStore> signing_store;  ///< nullptr where nothing is signed
   std::unique_ptr<io::LinkGuard> guard;
   std::unique_ptr<io::VideoSource> video;  ///< refers to the clock

@@ -9,8 +9,11 @@ void add_live_options(CLI::App& program, LiveOptions& options) {
   const auto add = [&program](const char* name, std::string& value, const char* help, const char* type) {
     return program.add_option(name, value, help)->type_name(type);
   };
-  add("--udp", options.udp, "MAVLink input: PORT on every interface, or HOST:PORT", "[HOST:]PORT")
-      ->capture_default_str();
+  add("--udp", options.udp,
+      "MAVLink input: PORT on every interface, or HOST:PORT; without it, telemetry in the video goes first",
+      "[HOST:]PORT")
+      ->capture_default_str()
+      ->each([&options](const std::string&) { options.is_udp_given = true; });
   add("--rtsp", options.rtsp_url, "Camera stream, H.264", "URL");
   add("--video", options.video_file, "A video file in place of a stream, played in real time", "FILE");
   add("--config", options.config_file, "Settings, JSON (see --print-config)", "FILE");

@@ -15,6 +15,7 @@ namespace geoloc::apps {
 /// geoloc_app's command line.
 struct LiveOptions {
   std::string udp = "14550";
+  bool is_udp_given = false;
   std::string rtsp_url;
   std::string video_file;
   std::string config_file;

@@ -6,18 +6,15 @@
 namespace geoloc::apps {
 namespace {
 
-constexpr auto kTelemetryWait = std::chrono::milliseconds{10};
-constexpr int kMostDatagrams = 256;  // a turn: a flood must not starve the frames
 constexpr std::size_t kMostWaiting = 128;
 constexpr auto kFuture = std::chrono::milliseconds{500};  // clocks disagree a little; more is a wrong clock
 
 }  // namespace
 
-LiveRun::LiveRun(Session& session, io::UdpSocket& socket, io::LinkGuard& guard, DetectionWorker& worker,
-                 Recorder& recorder, VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame)
+LiveRun::LiveRun(Session& session, TelemetryInput& telemetry, DetectionWorker& worker, Recorder& recorder,
+                 VehicleReports& reports, const io::HostClock& clock, OnFrame on_frame)
     : session_(session),
-      socket_(socket),
-      guard_(guard),
+      telemetry_(telemetry),
       worker_(worker),
       recorder_(recorder),
       reports_(reports),
@@ -25,47 +22,51 @@ LiveRun::LiveRun(Session& session, io::UdpSocket& socket, io::LinkGuard& guard, 
       on_frame_(std::move(on_frame)) {}
 
 void LiveRun::step() {
-  receive_telemetry();
-  const auto to_vehicle = [this](const std::uint8_t* frame, std::size_t size) { send(frame, size); };
-  session_.link().poll(clock_.now(), to_vehicle);
-  reports_.poll(clock_.now(), session_, to_vehicle);
-  take_frames();
+  telemetry_.receive(session_);
+  if (telemetry_.can_send()) answer_vehicle();
+  if (telemetry_.way() != TelemetryWay::kUndecided) take_frames();
   process_ready();
 }
 
-void LiveRun::receive_telemetry() {
-  auto wait = kTelemetryWait;
-  for (int i = 0; i < kMostDatagrams; ++i) {
-    const auto datagram = socket_.receive(wait);
-    if (!datagram) return;
-    const HostTime now = clock_.now();
-    guard_.receive(now, io::source_of(datagram->sender), datagram->data, datagram->size,
-                   [&](const std::uint8_t* frame, std::size_t size) {
-                     if (session_.add_telemetry(now, frame, size)) socket_.answer(datagram->sender);
-                   });
-    wait = std::chrono::milliseconds{0};
-  }
+void LiveRun::answer_vehicle() {
+  const auto to_vehicle = [this](const std::uint8_t* frame, std::size_t size) {
+    telemetry_.send(frame, size);
+  };
+  session_.link().poll(clock_.now(), to_vehicle);
+  reports_.poll(clock_.now(), session_, to_vehicle);
 }
 
-void LiveRun::send(const std::uint8_t* frame, std::size_t size) {
-  const io::OutgoingFrame sent = guard_.outgoing(clock_.now(), frame, size);
-  socket_.send(sent.bytes.data(), sent.size);
+/// By the time at which its own telemetry says that it was made, so that both are of one clock. False where
+/// it has none.
+bool LiveRun::stamp_by_telemetry(DetectedFrame& frame) {
+  if (!frame.telemetry) return false;
+  frame.captured_at = frame.telemetry->made_at;
+  frame.time_quality = io::TimeQuality::kTelemetry;
+  return true;
 }
 
 void LiveRun::take_frames() {
   for (DetectedFrame& frame : worker_.take()) {
-    const double time_sigma_s = stamp_sigma_.observe(frame.time_quality, frame.received_at);
-    if (frame.captured_at <= newest_captured_ || frame.captured_at > clock_.now() + kFuture) {
-      ++stats_.out_of_order;
+    if (telemetry_.way() == TelemetryWay::kVideo && !stamp_by_telemetry(frame)) {
+      ++stats_.untold;
       continue;
     }
-    newest_captured_ = frame.captured_at;
-    if (waiting_.size() >= kMostWaiting) {
-      waiting_.pop_front();
-      ++stats_.overflowed;
-    }
-    waiting_.push_back({std::move(frame), time_sigma_s});
+    wait_for_state(std::move(frame));
   }
+}
+
+void LiveRun::wait_for_state(DetectedFrame frame) {
+  const double time_sigma_s = stamp_sigma_.observe(frame.time_quality, frame.received_at);
+  if (frame.captured_at <= newest_captured_ || frame.captured_at > clock_.now() + kFuture) {
+    ++stats_.out_of_order;
+    return;
+  }
+  newest_captured_ = frame.captured_at;
+  if (waiting_.size() >= kMostWaiting) {
+    waiting_.pop_front();
+    ++stats_.overflowed;
+  }
+  waiting_.push_back({std::move(frame), time_sigma_s});
 }
 
 void LiveRun::process_ready() {

@@ -13,20 +13,20 @@ namespace {
 constexpr Duration kReportsCome = std::chrono::seconds{15};
 
 /// Where a stream does not tell when frames were taken; empty where it does.
-std::string of_stamps(const io::VideoStatus& video, Duration elapsed) {
-  const bool tells =
-      video.time_quality != io::TimeQuality::kArrival && video.time_quality != io::TimeQuality::kForeignClock;
+std::string of_stamps(const io::VideoStatus& video, TelemetryWay way, Duration elapsed) {
+  const bool tells = way == TelemetryWay::kVideo || (video.time_quality != io::TimeQuality::kArrival &&
+                                                     video.time_quality != io::TimeQuality::kForeignClock);
   if (tells || elapsed < kReportsCome) return {};
   return "; the stream does not tell when they were taken, so it is estimated from when they arrive (less "
          "video.latency_s)";
 }
 
-std::string video_message(const io::VideoStatus& video, Duration elapsed) {
+std::string video_message(const io::VideoStatus& video, TelemetryWay way, Duration elapsed) {
   switch (video.state) {
     case io::VideoState::kConnecting:
       return "video: connecting";
     case io::VideoState::kPlaying:
-      return "video: frames come" + of_stamps(video, elapsed);
+      return "video: frames come" + of_stamps(video, way, elapsed);
     case io::VideoState::kRetrying:
       return "video: trying again: " + video.last_error;
     case io::VideoState::kEnded:
@@ -38,8 +38,9 @@ std::string video_message(const io::VideoStatus& video, Duration elapsed) {
 }  // namespace
 
 io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& session,
-                           const io::VideoSource& video, const DetectionWorker& worker, const LiveRun& run,
-                           const std::string& damage, const std::string& doubt) {
+                           const TelemetryInput& telemetry, const io::VideoSource& video,
+                           const DetectionWorker& worker, const LiveRun& run, const std::string& damage,
+                           const std::string& doubt) {
   const io::LinkStatus link = session.link().status(now);
   const io::VideoStatus stream = video.status();
   const DetectionWorker::Stats detection = worker.stats();
@@ -47,14 +48,15 @@ io::LiveStatus live_status(HostTime now, HostTime started_at, const Session& ses
   io::LiveStatus status;
   status.at = now;
   status.elapsed = now - started_at;
-  const LinkMessage telemetry = link_message(link, session.geolocator());
-  const std::string refusal = refusal_message(run.guard(), now);
-  status.link = telemetry.text + (refusal.empty() ? "" : "; ") + refusal;
-  status.link_is_good = telemetry.is_good;
+  const LinkMessage message = link_message(link, session.geolocator(), telemetry.way());
+  const std::string refusal = refusal_message(telemetry.guard(), now);
+  status.link = message.text + (refusal.empty() ? "" : "; ") + refusal;
+  status.link_is_good = message.is_good;
   status.attitude_rate_hz = link.attitude_rate_hz;
   status.position_rate_hz = link.position_rate_hz;
   const bool is_playing = stream.state == io::VideoState::kPlaying;
-  status.video = is_playing && !damage.empty() ? damage : video_message(stream, status.elapsed);
+  status.video =
+      is_playing && !damage.empty() ? damage : video_message(stream, telemetry.way(), status.elapsed);
   status.video_is_good = is_playing && damage.empty();
   status.video_state = to_string(stream.state);
   status.video_rate_hz = stream.frames_per_second;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "common/video_vehicle.hpp"
 #include "geoloc/io/video/video_frame.hpp"
 
 namespace geoloc::apps {
@@ -22,6 +23,7 @@ class StampSigma {
     is_settled_ = !is_by_arrival(quality) || received_at - began_at_ > kReportsComeWithin;
     if (!is_settled_) return kUnknownDelay_s;
     if (quality == io::TimeQuality::kUnconfirmed) return kUnconfirmed_s;
+    if (quality == io::TimeQuality::kTelemetry) return kToldTimeSigma_s;
     return quality == io::TimeQuality::kArrival ? kJitterOfArrival_s : kRecovered_s;
   }
 

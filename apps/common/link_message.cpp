@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/count_list.hpp"
+#include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -66,27 +67,34 @@ std::string on_zoom(const io::LinkStatus& link) {
 }
 
 /// The message where telemetry comes.
-std::string comes(const io::LinkStatus& link, const Geolocator& geolocator) {
-  if (!is_on_gimbal(geolocator)) return "telemetry comes" + on_zoom(link);
-  return fmt::format("telemetry comes, and the angles of gimbal {} ({:.0f}/s)", link.gimbal->number(),
-                     link.gimbal_rate_hz) +
+std::string comes(const io::LinkStatus& link, const Geolocator& geolocator, TelemetryWay way) {
+  const bool is_in_video = way == TelemetryWay::kVideo;
+  const std::string telemetry = is_in_video ? "telemetry comes in the video" : "telemetry comes";
+  if (!is_on_gimbal(geolocator)) return telemetry + on_zoom(link);
+  const std::string gimbal = is_in_video ? "its gimbal" : fmt::format("gimbal {}", link.gimbal->number());
+  return fmt::format("{}, and the angles of {} ({:.0f}/s)", telemetry, gimbal, link.gimbal_rate_hz) +
          on_zoom(link);
+}
+
+LinkMessage of_nobody(const io::LinkStatus& link, TelemetryWay way) {
+  if (way == TelemetryWay::kUndecided)
+    return {"telemetry: the video's first frames will show whether it carries any", false,
+            "no telemetry came"};
+  return {"waiting for a vehicle: no MAVLink heartbeat of an autopilot yet" + of_another(link), false,
+          "no MAVLink heartbeat of an autopilot came" + of_another(link)};
 }
 
 }  // namespace
 
-LinkMessage link_message(const io::LinkStatus& link, const Geolocator& geolocator) {
-  if (!link.vehicle)
-    return {"waiting for a vehicle: no MAVLink heartbeat of an autopilot yet" + of_another(link), false,
-            "no MAVLink heartbeat of an autopilot came" + of_another(link)};
-  const std::string vehicle = fmt::format("vehicle {}: ", link.vehicle->system);
+LinkMessage link_message(const io::LinkStatus& link, const Geolocator& geolocator, TelemetryWay way) {
+  if (!link.vehicle) return of_nobody(link, way);
+  const std::string vehicle = way == TelemetryWay::kVideo ? "telemetry in the video: "
+                                                          : fmt::format("vehicle {}: ", link.vehicle->system);
   const std::string what = fault(link, geolocator);
+  const std::string good = (way == TelemetryWay::kVideo ? "" : vehicle) + comes(link, geolocator, way);
   if (what.empty() && link.has_gnss_glitch)
-    return {
-        vehicle + comes(link, geolocator) + "; its estimator reports a GNSS glitch: the position may be off",
-        true,
-        {}};
-  if (what.empty()) return {vehicle + comes(link, geolocator), true, {}};
+    return {good + "; its estimator reports a GNSS glitch: the position may be off", true, {}};
+  if (what.empty()) return {good, true, {}};
   return {vehicle + what + "; frames cannot be located" + of_another(link), false,
           vehicle + what + of_another(link)};
 }

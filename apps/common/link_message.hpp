@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "common/telemetry_way.hpp"
 #include "geoloc/io/mavlink/link_guard.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
@@ -17,7 +18,8 @@ struct LinkMessage {
 };
 
 /// `geolocator`: what became of the telemetry, and whether its camera is on a gimbal.
-LinkMessage link_message(const io::LinkStatus& link, const Geolocator& geolocator);
+LinkMessage link_message(const io::LinkStatus& link, const Geolocator& geolocator,
+                         TelemetryWay way = TelemetryWay::kMavlink);
 
 /// Why frames of a camera on a gimbal are not located that tells nothing, and what would change it.
 inline constexpr const char* kNoGimbalAngles =

@@ -64,23 +64,26 @@ void add_stills_command(CLI::App& program, StillsOptions& options) {
 }
 
 const CLI::App* add_video_command(CLI::App& program, VideoOptions& options) {
-  CLI::App& video = *program.add_subcommand("video", "A video, and the log of the flight it was taken on");
+  CLI::App& video = *program.add_subcommand(
+      "video", "A video, and the log of the flight it was taken on, unless its frames carry that");
   video.add_option("FILE", options.video, "The video, of any kind that GStreamer plays")->required();
   video
       .add_option(
           "--log", options.log,
-          "DJI's subtitles (.SRT), ArduPilot's .BIN, PX4's .ulg, a MAVLink log (.tlog), or a table (.csv)")
-      ->type_name("FILE")
-      ->required();
+          "DJI's subtitles (.SRT), ArduPilot's .BIN, PX4's .ulg, a MAVLink log (.tlog), or a table (.csv) "
+          "[the telemetry in the video's frames]")
+      ->type_name("FILE");
   video
       .add_option("--log-offset-s", options.log_offset,
                   "When the video began, s after the log's beginning; auto: by what video and log tell")
       ->check(CLI::Validator(check_offset, "X|auto"))
       ->capture_default_str()
+      ->needs(video.get_option("--log"))
       ->type_name("");
   video
       .add_option("--camera", options.camera_file,
-                  "Calibration and mount, YAML or camera.json; needed unless the log tells the focal length")
+                  "Calibration and mount, YAML or camera.json; needed unless the log or the video tells the "
+                  "focal length")
       ->type_name("FILE");
   video
       .add_option(
@@ -88,6 +91,7 @@ const CLI::App* add_video_command(CLI::App& program, VideoOptions& options) {
           "The pitch, deg, of a camera that is held level by a gimbal of which the log tells nothing: "
           "-90 is straight down; without it, the camera is fixed in the vehicle as --camera says")
       ->check(CLI::Range(-90.0, 0.0))
+      ->needs(video.get_option("--log"))
       ->type_name("X");
   add_shared_options(video, options);
   return &video;

@@ -10,11 +10,13 @@
 
 #include "common/command_line.hpp"
 #include "common/stop_signal.hpp"
+#include "common/video_vehicle.hpp"
 #include "geoloc/io/json/camera_file.hpp"
 #include "import/import_words.hpp"
 #include "import/log_source.hpp"
 #include "import/look_source.hpp"
 #include "import/recording_maker.hpp"
+#include "import/told_video.hpp"
 #include "import/video_camera.hpp"
 #include "import/video_looks.hpp"
 #include "import/video_offset.hpp"
@@ -58,13 +60,14 @@ void refuse_gimbal_without_angles(const CameraConfig& camera, const LogSource& l
 
 /// Everything that can be wrong before the first frame is looked at is found while this is made.
 struct VideoProgram {
-  explicit VideoProgram(const VideoOptions& given)
-      : options(given),
-        log(read_log(options.log, facts_of(options))),
-        facts(video_facts(options.video)),
-        camera(video_camera(options.camera_file, facts, log.focal_lengths, assumptions)),
-        offset(find_offset({facts.file.created_at, facts.file.duration}, log.times, told_offset(options))) {
-    refuse_gimbal_without_angles(camera, log, options);
+  VideoProgram(const VideoOptions& given, const StopSignal& stop)
+      : options(given), facts(video_facts(options.video)) {
+    if (options.log.empty())
+      take_log(read_told_video(options.video, stop));
+    else
+      take_log(read_log(options.log, facts_of(options)));
+    if (stop.is_requested()) return;
+    refuse_gimbal_without_angles(camera.config, log, options);
     source.labels = labels_in(options.labels_file);
     open_detector_unless_labelled(options.detector, options.tuning, source);
     const std::string work = source.detector ? work_of(options, source.config) : std::string{};
@@ -72,10 +75,25 @@ struct VideoProgram {
     if (source.detector) found = std::make_unique<FoundFile>(options.out + ".found.jsonl", work);
   }
 
+  void take_log(LogSource beside) {
+    log = std::move(beside);
+    camera = video_camera(options.camera_file, facts, {log.focal_lengths, std::nullopt, false}, assumptions);
+    offset = find_offset({facts.file.created_at, facts.file.duration}, log.times, told_offset(options));
+  }
+
+  void take_log(ToldVideo video) {
+    told = std::move(video);
+    log = std::move(told->log);
+    offset = told->offset;
+    camera = video_camera(options.camera_file, facts, {{}, told->horizontal_fov_deg, told->has_gimbal},
+                          assumptions);
+  }
+
   VideoOptions options;
   std::vector<std::string> assumptions;
-  LogSource log;
   VideoFacts facts;
+  LogSource log;
+  std::optional<ToldVideo> told;  ///< where the video is its own log, which is in `log`
   VideoCamera camera;
   VideoOffset offset;
   LookSource source;
@@ -85,12 +103,13 @@ struct VideoProgram {
 
 void tell_begin(const VideoProgram& program) {
   if (program.log.track) tell_plan(program.log.track->notes, program.log.track->assumptions);
+  if (program.told) tell_plan(program.told->notes, program.told->assumptions);
   tell_plan({}, program.assumptions);
   tell(fmt::format(
       "the video begins {:.2f} s after the log's beginning, {}, to {:g} s (1 sigma): what is left "
       "is found with the objects, as a latency{}",
       seconds(program.offset.after_log_begin), program.offset.how, program.offset.sigma_s,
-      program.options.log_offset == "auto" ? " (--log-offset-s says another)" : ""));
+      program.options.log_offset == "auto" && !program.told ? " (--log-offset-s says another)" : ""));
 }
 
 std::vector<VideoLook> looks_of(VideoProgram& program, const StopSignal& stop) {
@@ -106,10 +125,16 @@ std::vector<VideoLook> looks_of(VideoProgram& program, const StopSignal& stop) {
   return looks;
 }
 
-void write(VideoProgram& program, const std::vector<VideoLook>& looks) {
+void write(VideoProgram& program, std::vector<VideoLook>& looks) {
   io::RecordingWriter& writer = program.recording->writer();
-  const std::size_t left_out =
-      write_video_flight({program.log, program.camera, program.offset, looks}, writer);
+  VideoFlight flight{program.log, program.camera, program.offset, looks};
+  if (program.told) {
+    const std::size_t untold = take_told_times(*program.told, looks);
+    if (untold > 0) tell(fmt::format("{} frames are left out: they carry no time of their own", untold));
+    flight.time_quality = io::TimeQuality::kTelemetry;
+    flight.time_sigma_s = kToldTimeSigma_s;
+  }
+  const std::size_t left_out = write_video_flight(flight, writer);
   if (left_out > 0)
     tell(fmt::format("{} frames are left out: how the camera looked then is not known", left_out));
   write_classes_and_truth(program.source, writer);
@@ -138,10 +163,11 @@ int import_video(const VideoOptions& options) {
   const StopSignal stop;
   std::vector<VideoLook> looks;
   const auto unusable = guard("geoloc_import", kUnusable, [&] {
-    program = std::make_unique<VideoProgram>(options);
-    tell_begin(*program);
+    program = std::make_unique<VideoProgram>(options, stop);
+    if (!stop.is_requested()) tell_begin(*program);
   });
   if (unusable) return *unusable;
+  if (stop.is_requested()) return tell_stopped(*program);
   const auto unseen = guard("geoloc_import", kUnusable, [&] { looks = looks_of(*program, stop); });
   if (unseen) return *unseen;
   if (stop.is_requested()) return tell_stopped(*program);

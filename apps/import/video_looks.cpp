@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <functional>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -28,33 +27,6 @@ std::optional<io::VideoFrame> next_frame(io::FileSource& source) {
     if (auto frame = source.next(kWait)) return frame;
     if (source.status().state == io::VideoState::kEnded) return std::nullopt;
   }
-}
-
-/// Whole frames with their numbers, until `stop` or the video's end.
-void for_each_frame(const std::filesystem::path& file, const char* progress_text, const StopSignal& stop,
-                    std::vector<std::string>& notes,
-                    const std::function<void(std::uint64_t number, const io::VideoFrame& frame)>& take) {
-  const io::HostClock clock;
-  const auto source = open(file, clock);
-  const auto milliseconds = [](Duration time) {
-    return static_cast<std::size_t>(std::max<Duration::rep>(0, time.count() / 1'000'000));
-  };
-  ProgressLine progress(progress_text, milliseconds(source->facts().duration.value_or(Duration{})));
-  std::uint64_t number = 0, damaged = 0;
-  for (; !stop.is_requested(); ++number) {
-    const auto frame = next_frame(*source);
-    if (!frame) break;
-    damaged += frame->damaged ? 1 : 0;
-    if (!frame->damaged) take(number, *frame);
-    progress.show(milliseconds(frame->captured_at.time_since_epoch()));
-  }
-  progress.finish();
-  const io::VideoStatus status = source->status();
-  if (!stop.is_requested() && !status.last_error.empty())
-    notes.push_back(fmt::format("{}: ended early: {}", file.string(), status.last_error));
-  if (damaged + status.refused > 0)
-    notes.push_back(
-        fmt::format("{}: {} frames are damaged and left out", file.string(), damaged + status.refused));
 }
 
 /// The number that a picture's name is, or ends in before its extension.
@@ -84,6 +56,32 @@ std::map<std::uint64_t, std::vector<Detection>> by_frame(const io::Labels& label
 }
 
 }  // namespace
+
+void for_each_frame(const std::filesystem::path& file, const char* progress_text, const StopSignal& stop,
+                    std::vector<std::string>& notes,
+                    const std::function<void(std::uint64_t number, const io::VideoFrame& frame)>& take) {
+  const io::HostClock clock;
+  const auto source = open(file, clock);
+  const auto milliseconds = [](Duration time) {
+    return static_cast<std::size_t>(std::max<Duration::rep>(0, time.count() / 1'000'000));
+  };
+  ProgressLine progress(progress_text, milliseconds(source->facts().duration.value_or(Duration{})));
+  std::uint64_t number = 0, damaged = 0;
+  for (; !stop.is_requested(); ++number) {
+    const auto frame = next_frame(*source);
+    if (!frame) break;
+    damaged += frame->damaged ? 1 : 0;
+    if (!frame->damaged) take(number, *frame);
+    progress.show(milliseconds(frame->captured_at.time_since_epoch()));
+  }
+  progress.finish();
+  const io::VideoStatus status = source->status();
+  if (!stop.is_requested() && !status.last_error.empty())
+    notes.push_back(fmt::format("{}: ended early: {}", file.string(), status.last_error));
+  if (damaged + status.refused > 0)
+    notes.push_back(
+        fmt::format("{}: {} frames are damaged and left out", file.string(), damaged + status.refused));
+}
 
 VideoFacts video_facts(const std::filesystem::path& file) {
   const io::HostClock clock;

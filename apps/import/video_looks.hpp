@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,12 @@ struct VideoFacts {
 
 /// Throws std::runtime_error naming the file where it holds no video.
 VideoFacts video_facts(const std::filesystem::path& file);
+
+/// Whole frames with their numbers from 0, with progress, until `stop` or the video's end. Their times count
+/// from 1970. What became of the others is added to `notes`.
+void for_each_frame(const std::filesystem::path& file, const char* progress_text, const StopSignal& stop,
+                    std::vector<std::string>& notes,
+                    const std::function<void(std::uint64_t number, const io::VideoFrame& frame)>& take);
 
 /// What a detector finds, with progress, until `stop`; what `found` already has is not looked at again.
 std::vector<VideoLook> detected_looks(const std::filesystem::path& file, io::Detector& detector,

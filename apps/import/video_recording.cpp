@@ -124,7 +124,8 @@ std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& w
         std::chrono::floor<std::chrono::microseconds>((log.begins_at + since_log_begin).time_since_epoch()) +
         HostTime{};
     frame.detections = look.detections;
-    frame.time_quality = "file";
+    frame.time_quality = io::to_string(flight.time_quality);
+    frame.time_sigma_s = flight.time_sigma_s;
     if (log.track)
       frame.focal_px = focal_px_at(log.focal_lengths, camera.intrinsics, log.track->begin + since_log_begin);
     if (log.track && !log.track->assumed_gimbal.empty()) {

@@ -5,6 +5,7 @@
 
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
+#include "geoloc/io/video/video_frame.hpp"
 #include "import/found_file.hpp"
 #include "import/log_source.hpp"
 #include "import/video_camera.hpp"
@@ -18,6 +19,8 @@ struct VideoFlight {
   const VideoCamera& camera;
   const VideoOffset& offset;
   const std::vector<VideoLook>& looks;
+  io::TimeQuality time_quality = io::TimeQuality::kFile;  ///< of the looks
+  double time_sigma_s = 0.0;                              ///< 1-sigma of their times; 0: not stated
 };
 
 /// Writes camera, settings, telemetry and frames. Returns how many frames were left out since how the camera

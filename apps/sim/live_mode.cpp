@@ -12,6 +12,7 @@
 #include "geoloc/io/atomic_file.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "geoloc/sim/flight/terrain.hpp"
+#include "geoloc/sim/live/camera_telemetry.hpp"
 #include "geoloc/sim/live/flight_camera.hpp"
 #include "geoloc/sim/live/udp_vehicle.hpp"
 #include "geoloc/sim/rtsp/rtsp_camera.hpp"
@@ -46,7 +47,8 @@ AutopilotManners manners(const RunOptions& run) {
 /// All that a live run is made of; members are in the order in which they depend on each other.
 struct LiveRun {
   LiveRun(const RunOptions& run, const LiveOptions& options, std::uint64_t seed)
-      : settings(to_settings(run, seed)),
+      : has_sei(run.has_sei),
+        settings(to_settings(run, seed)),
         flight(with_moving_camera(load_flight(run), run, settings)),
         targets_in_enu(make_targets(settings)),
         flight_clock(live_span(settings, flight.truth), options.speed),
@@ -54,16 +56,19 @@ struct LiveRun {
                 {io::parse_udp_endpoint(peer(run, options)), manners(run), options.link, seed,
                  options.reboot_at_s},
                 flight_clock, host_clock),
+        camera_telemetry(flight, flight_clock, settings.camera.intrinsics),
         camera(flight, settings, flight_clock, make_run_scene(targets_in_enu, options.distractors, seed)),
         server({options.rtsp_port, settings.camera.intrinsics.width_px, settings.camera.intrinsics.height_px,
                 settings.frame_rate_hz}) {}
 
+  bool has_sei;
   RunSettings settings;
   Flight flight;
   std::vector<Eigen::Vector2d> targets_in_enu;
   io::HostClock host_clock;
   FlightClock flight_clock;
   UdpVehicle vehicle;
+  CameraTelemetry camera_telemetry;
   FlightCamera camera;
   RtspCamera server;
 };
@@ -90,14 +95,14 @@ void print_status(const LiveRun& run, Tally& tally) {
   tally = {0, 0, messages, now};
 }
 
-/// Decides when the flight starts: a while after video is watched and messages are asked for, or when waiting
-/// is over.
+/// Decides when the flight starts: a while after video is watched and messages are asked for, which nobody
+/// needs where the video tells them, or when waiting is over.
 class Starter {
  public:
   Starter(double wait_s, HostTime now) : wait_s_(wait_s), began_at_(now), last_unready_at_(now) {}
 
   void update(LiveRun& run, HostTime now) {
-    const bool is_ready = run.server.is_watched() && run.vehicle.has_listener();
+    const bool is_ready = run.server.is_watched() && (run.has_sei || run.vehicle.has_listener());
     if (!is_ready) last_unready_at_ = now;
     const bool has_settled = seconds(now - last_unready_at_) >= kSettling_s;
     if (has_settled || seconds(now - began_at_) >= wait_s_) run.flight_clock.release(now);
@@ -122,7 +127,9 @@ void film(LiveRun& run, double wait_s, const apps::StopSignal& stop) {
     starter.update(run, stamp);
     if (run.server.is_watched()) {
       run.camera.render(run.camera.draw_view(stamp), bgr);
-      if (run.server.push(bgr.data, tick)) ++tally.frames;
+      std::optional<io::VideoTelemetry> telemetry;
+      if (run.has_sei) telemetry = run.camera_telemetry.at(stamp);
+      if (run.server.push(bgr.data, tick, telemetry)) ++tally.frames;
     }
     for (; SteadyClock::now() - tick > 2 * period; tick += period) ++tally.missed;
     if (SteadyClock::now() - tally.since >= std::chrono::seconds{1}) print_status(run, tally);
@@ -148,12 +155,13 @@ class VehicleThread {
 void print_start(const LiveRun& run, const LiveOptions& options, const std::string& udp) {
   std::fprintf(stderr,
                "geoloc_sim: flight %s, scenario %d, seed %llu, speed %g\n"
-               "  video     %s\n"
+               "  video     %s%s\n"
                "  MAVLink   to udp %s\n"
-               "waiting up to %g s for a viewer and for someone who listens to MAVLink\n",
+               "waiting up to %g s for a viewer%s\n",
                run.flight.name.c_str(), run.settings.scenario,
                static_cast<unsigned long long>(run.settings.seed), options.speed, run.server.url().c_str(),
-               udp.c_str(), options.wait_s);
+               run.has_sei ? ", which carries the telemetry, too" : "", udp.c_str(), options.wait_s,
+               run.has_sei ? "" : " and for someone who listens to MAVLink");
 }
 
 void check(const LiveOptions& options) {

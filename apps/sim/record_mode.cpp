@@ -57,6 +57,8 @@ int run_record_mode(const RunOptions& run, const RecordOptions& options, std::ui
   try {
     settings = {to_settings(run, seed), options.detector, options.terrain};
     throw_if_any(settings.problems());
+    if (run.has_sei && !options.has_video)
+      throw std::invalid_argument("--sei: a recording without --video has no frames to carry the telemetry");
     if (std::filesystem::exists(options.folder)) {
       throw std::invalid_argument("--record " + options.folder + ": exists already; name a new folder");
     }
@@ -74,7 +76,7 @@ int run_record_mode(const RunOptions& run, const RecordOptions& options, std::ui
     write_recording(options.folder, *flight, settings);
     if (options.has_video)
       write_flight_video(std::filesystem::path(options.folder) / "video.mkv", *flight, settings.run,
-                         generate_frames(*flight, settings, make_targets(settings.run)));
+                         generate_frames(*flight, settings, make_targets(settings.run)), run.has_sei);
   } catch (const std::exception& error) {
     return fail(error, 1);
   }

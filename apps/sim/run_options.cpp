@@ -96,6 +96,11 @@ void add_run_options(CLI::App& program, RunOptions& options) {
       "Stamps of the first seconds are later by so much, s")
       ->capture_default_str();
   add_gimbal_options(program, options.gimbal, mount_pitch);
+  program
+      .add_flag("--sei", options.has_sei,
+                "The video's frames carry the telemetry (SEI, apcg.telemetry.v1); of a recording, those of "
+                "--video")
+      ->group(kCameraGroup);
   CLI::Option* const sigma = add(kHiddenGroup, "--mount-sigma-deg", errors.mount_sigma_deg,
                                  "1-sigma of the mounting error, per axis, deg")
                                  ->capture_default_str();

@@ -23,7 +23,8 @@ struct RunOptions {
   std::array<double, 5> distortion{};
   bool uncalibrated_lens = false;
   GimbalOptions gimbal;
-  std::string zoom;  ///< as "1..4"; empty: none
+  std::string zoom;      ///< as "1..4"; empty: none
+  bool has_sei = false;  ///< telemetry in the video's frames
   RunSettings settings;
 };
 

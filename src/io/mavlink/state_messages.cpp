@@ -13,8 +13,11 @@
 namespace geoloc::io {
 namespace {
 
-constexpr MavAddress kVehicle{1, MAV_COMP_ID_AUTOPILOT1};
-constexpr float kNotTold = std::numeric_limits<float>::quiet_NaN();
+constexpr float kNoNumber = std::numeric_limits<float>::quiet_NaN();
+
+MavAddress autopilot_of(std::uint8_t system) {
+  return {system, MAV_COMP_ID_AUTOPILOT1};
+}
 
 std::uint32_t milliseconds(VehicleTime time) {
   return static_cast<std::uint32_t>(
@@ -40,12 +43,12 @@ OutgoingFrame StateWriter::heartbeat() {
   fields.autopilot = MAV_AUTOPILOT_GENERIC;
   fields.system_status = MAV_STATE_ACTIVE;
   fields.mavlink_version = 3;
-  return pack(kVehicle, sequence_++, true, mavlink_msg_heartbeat_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_heartbeat_encode_status, fields);
 }
 
 OutgoingFrame StateWriter::attitude(const AttitudeSample& sample) {
   const Eigen::Vector3d rates =
-      sample.rates_in_body_radps.value_or(Eigen::Vector3d::Constant(static_cast<double>(kNotTold)));
+      sample.rates_in_body_radps.value_or(Eigen::Vector3d::Constant(static_cast<double>(kNoNumber)));
   mavlink_attitude_t fields{};
   fields.time_boot_ms = milliseconds(sample.time);
   fields.roll = static_cast<float>(sample.angles.roll_rad);
@@ -54,7 +57,7 @@ OutgoingFrame StateWriter::attitude(const AttitudeSample& sample) {
   fields.rollspeed = static_cast<float>(rates.x());
   fields.pitchspeed = static_cast<float>(rates.y());
   fields.yawspeed = static_cast<float>(rates.z());
-  return pack(kVehicle, sequence_++, true, mavlink_msg_attitude_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_attitude_encode_status, fields);
 }
 
 OutgoingFrame StateWriter::position(const PositionSample& sample) {
@@ -69,7 +72,8 @@ OutgoingFrame StateWriter::position(const PositionSample& sample) {
   fields.vy = scaled<std::int16_t>(velocity.x(), 1e2);
   fields.vz = scaled<std::int16_t>(-velocity.z(), 1e2);
   fields.hdg = std::numeric_limits<std::uint16_t>::max();  // not told
-  return pack(kVehicle, sequence_++, true, mavlink_msg_global_position_int_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_global_position_int_encode_status,
+              fields);
 }
 
 OutgoingFrame StateWriter::gnss(const PositionSample& sample, const GnssClaim& claim) {
@@ -84,7 +88,7 @@ OutgoingFrame StateWriter::gnss(const PositionSample& sample, const GnssClaim& c
   fields.satellites_visible = std::numeric_limits<std::uint8_t>::max();  // not told
   fields.h_acc = millimetres(claim.sigma_horizontal_m);
   fields.v_acc = millimetres(claim.sigma_height_m);
-  return pack(kVehicle, sequence_++, true, mavlink_msg_gps_raw_int_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_gps_raw_int_encode_status, fields);
 }
 
 OutgoingFrame StateWriter::gimbal(const GimbalSample& sample) {
@@ -97,14 +101,15 @@ OutgoingFrame StateWriter::gimbal_device(const GimbalSample& sample, bool holds_
   mavlink_gimbal_device_attitude_status_t fields{};
   fields.time_boot_ms = milliseconds(sample.time);
   std::transform(wxyz.begin(), wxyz.end(), fields.q, [](double value) { return static_cast<float>(value); });
-  fields.angular_velocity_x = fields.angular_velocity_y = fields.angular_velocity_z = kNotTold;
-  fields.delta_yaw = fields.delta_yaw_velocity = kNotTold;
+  fields.angular_velocity_x = fields.angular_velocity_y = fields.angular_velocity_z = kNoNumber;
+  fields.delta_yaw = fields.delta_yaw_velocity = kNoNumber;
   fields.flags = GIMBAL_DEVICE_FLAGS_ROLL_LOCK | GIMBAL_DEVICE_FLAGS_PITCH_LOCK;
   fields.flags |= sample.yaw == GimbalYaw::kFromNorth ? GIMBAL_DEVICE_FLAGS_YAW_IN_EARTH_FRAME
                                                       : GIMBAL_DEVICE_FLAGS_YAW_IN_VEHICLE_FRAME;
   if (holds_direction) fields.flags |= GIMBAL_DEVICE_FLAGS_YAW_LOCK;
   fields.gimbal_device_id = 1;
-  return pack(kVehicle, sequence_++, true, mavlink_msg_gimbal_device_attitude_status_encode_status, fields);
+  return pack(autopilot_of(system_), sequence_++, true,
+              mavlink_msg_gimbal_device_attitude_status_encode_status, fields);
 }
 
 OutgoingFrame StateWriter::mount_orientation(const GimbalSample& sample) {
@@ -115,9 +120,9 @@ OutgoingFrame StateWriter::mount_orientation(const GimbalSample& sample) {
   fields.time_boot_ms = milliseconds(sample.time);
   fields.roll = static_cast<float>(angles.roll_rad * kDegPerRad);
   fields.pitch = static_cast<float>(angles.pitch_rad * kDegPerRad);
-  fields.yaw = is_from_north ? kNotTold : yaw_deg;
-  fields.yaw_absolute = is_from_north ? yaw_deg : kNotTold;
-  return pack(kVehicle, sequence_++, true, mavlink_msg_mount_orientation_encode_status, fields);
+  fields.yaw = is_from_north ? kNoNumber : yaw_deg;
+  fields.yaw_absolute = is_from_north ? yaw_deg : kNoNumber;
+  return pack(autopilot_of(system_), sequence_++, true, mavlink_msg_mount_orientation_encode_status, fields);
 }
 
 }  // namespace geoloc::io

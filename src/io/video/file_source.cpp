@@ -4,11 +4,14 @@
 #include <exception>
 #include <mutex>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/io/video/camera_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "gst_pipeline.hpp"
+#include "sei_buffer.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -44,6 +47,7 @@ class FileSource::Impl {
   ~Impl() { exchange_.end(); }  // releases the streaming thread, for which the pipeline waits
 
   std::optional<VideoFrame> next(Duration timeout) { return exchange_.take(timeout); }
+  std::vector<FrameTelemetry> take_telemetry() { return exchange_.take_telemetry(); }
   VideoStatus status() const { return exchange_.status(clock_.now()); }
 
   FileFacts facts() const {
@@ -74,6 +78,7 @@ class FileSource::Impl {
     g_object_set(sink, "sync", is_real_time, "drop", is_real_time, nullptr);
     gst_element_link(source, decoder);
     gst_element_link(converter_, sink);
+    g_signal_connect(decoder, "element-added", G_CALLBACK(on_element), nullptr);
     g_signal_connect(decoder, "pad-added", G_CALLBACK(on_pad), this);
     g_signal_connect(decoder, "no-more-pads", G_CALLBACK(on_all_pads), this);
     const GstObjectPtr<GstBus> bus{gst_element_get_bus(pipeline_.get())};
@@ -97,6 +102,13 @@ class FileSource::Impl {
 
   GstObjectPtr<GstPad> converter_pad() const {
     return GstObjectPtr<GstPad>{gst_element_get_static_pad(converter_, "sink")};
+  }
+
+  static void on_element(GstBin*, GstElement* element, gpointer) {
+    const GstElementFactory* const factory = gst_element_get_factory(element);
+    if (factory == nullptr || std::string_view(GST_OBJECT_NAME(factory)) != "h265parse") return;
+    const GstObjectPtr<GstPad> parsed{gst_element_get_static_pad(element, "src")};
+    read_telemetry_at(parsed.get());
   }
 
   /// Sound does not fit the converter, so it stays unlinked.
@@ -152,8 +164,10 @@ class FileSource::Impl {
     }
     if (!starts_at_) starts_at_ = now - *time;
     const auto captured_at = std::chrono::floor<std::chrono::microseconds>(*starts_at_ + *time);
-    VideoFrame frame{std::move(*bgr), captured_at, now, TimeQuality::kFile, false};
+    VideoFrame frame{std::move(*bgr), captured_at, now, TimeQuality::kFile};
     frame.damaged = GST_BUFFER_FLAG_IS_SET(gst_sample_get_buffer(sample), GST_BUFFER_FLAG_CORRUPTED);
+    if (const auto record = telemetry_of(gst_sample_get_buffer(sample)))
+      frame.telemetry = {camera_clock_.to_host(record->made_at, now), *record};
     if (pace_ == Pace::kAsTaken) return exchange_.offer_and_wait(std::move(frame));
     exchange_.offer(std::move(frame));
     return true;
@@ -163,6 +177,7 @@ class FileSource::Impl {
   std::optional<HostTime> starts_at_;  // set by the constructor or by the first frame
   const VideoConfig config_;
   const HostClock& clock_;
+  CameraClock camera_clock_;
   FrameExchange exchange_;
   mutable std::mutex tags_mutex_;
   std::optional<HostTime> created_at_;  // guarded by tags_mutex_
@@ -178,6 +193,10 @@ FileSource::~FileSource() = default;
 
 std::optional<VideoFrame> FileSource::next(Duration timeout) {
   return impl_->next(timeout);
+}
+
+std::vector<FrameTelemetry> FileSource::take_telemetry() {
+  return impl_->take_telemetry();
 }
 
 VideoStatus FileSource::status() const {

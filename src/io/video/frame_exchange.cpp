@@ -9,6 +9,7 @@ namespace {
 
 constexpr Duration kRateWindow = std::chrono::seconds{2};
 constexpr std::size_t kMostRecent = 1000;                 // bounds the memory, whatever a stream sends
+constexpr std::size_t kMostTelemetry = 300;               // ten seconds of a usual stream
 constexpr Duration kLongestWait = std::chrono::hours{1};  // Duration::max() would overflow the clock
 
 }  // namespace
@@ -20,6 +21,11 @@ void FrameExchange::place(VideoFrame frame) {
   recent_.push_back(now);
   ++status_.frames;
   if (frame.damaged) ++status_.damaged;
+  if (frame.telemetry) {
+    ++status_.with_telemetry;
+    if (telemetry_.size() >= kMostTelemetry) telemetry_.pop_front();
+    telemetry_.push_back(*frame.telemetry);
+  }
   status_.time_quality = frame.time_quality;
   status_.state = VideoState::kPlaying;
   frame_ = std::move(frame);
@@ -46,6 +52,13 @@ std::optional<VideoFrame> FrameExchange::take(Duration timeout) {
   changed_.wait_for(lock, std::min(timeout, kLongestWait), [this] { return is_ended() || frame_; });
   auto taken = std::exchange(frame_, std::nullopt);
   changed_.notify_all();
+  return taken;
+}
+
+std::vector<FrameTelemetry> FrameExchange::take_telemetry() {
+  const std::lock_guard lock{mutex_};
+  std::vector<FrameTelemetry> taken(telemetry_.begin(), telemetry_.end());
+  telemetry_.clear();
   return taken;
 }
 

@@ -10,6 +10,7 @@
 
 #include "gst_pipeline.hpp"
 #include "rtcp_report.hpp"
+#include "sei_buffer.hpp"
 
 namespace geoloc::io {
 
@@ -94,9 +95,10 @@ void require_rtsp_elements() {
 }
 
 RtspSession::RtspSession(const std::string& url, const VideoConfig& config, const HostClock& clock,
-                         FrameExchange& exchange)
+                         CameraClock& camera_clock, FrameExchange& exchange)
     : config_(config),
       clock_(clock),
+      camera_clock_(camera_clock),
       exchange_(exchange),
       alive_at_(clock.now()),
       timing_(from_seconds(config.latency_s)),
@@ -187,6 +189,7 @@ void RtspSession::build_decoder(GstPad* stream) {
       parsed.get(),
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER),
       on_parsed, this, nullptr);
+  if (codec_ == VideoCodec::kH265) read_telemetry_at(parsed.get());
   gst_pad_add_probe(stream,
                     static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST),
                     on_packets, this, nullptr);
@@ -267,6 +270,8 @@ void RtspSession::deliver(GstSample* sample) {
   VideoFrame frame = timing_.stamp(rtp_timestamp(buffer), now);
   if (GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_CORRUPTED)) frame.damaged = true;
   frame.bgr = std::move(*bgr);
+  if (const auto record = telemetry_of(buffer))
+    frame.telemetry = {camera_clock_.to_host(record->made_at, frame.received_at), *record};
   alive_at_ = now;
   relay_.note_frame();
   has_delivered_ = true;

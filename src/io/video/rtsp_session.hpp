@@ -8,6 +8,7 @@
 #include <string>
 
 #include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/video/camera_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "geoloc/io/video/rtp_payload.hpp"
 #include "geoloc/io/video/video_config.hpp"
@@ -27,7 +28,7 @@ class RtspSession {
  public:
   /// Begins to connect. Everything passed by reference must outlive the session.
   RtspSession(const std::string& url, const VideoConfig& config, const HostClock& clock,
-              FrameExchange& exchange);
+              CameraClock& camera_clock, FrameExchange& exchange);
   /// Takes a moment, whatever the server does.
   ~RtspSession();
   RtspSession(const RtspSession&) = delete;
@@ -62,6 +63,7 @@ class RtspSession {
 
   const VideoConfig& config_;
   const HostClock& clock_;
+  CameraClock& camera_clock_;  // used where frames are delivered
   FrameExchange& exchange_;
 
   std::atomic<bool> has_selected_{false};

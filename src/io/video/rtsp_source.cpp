@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/io/video/camera_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "geoloc/io/video/stream_url.hpp"
 #include "gst_pipeline.hpp"
@@ -47,6 +48,7 @@ class RtspSource::Impl {
   }
 
   std::optional<VideoFrame> next(Duration timeout) { return exchange_.take(timeout); }
+  std::vector<FrameTelemetry> take_telemetry() { return exchange_.take_telemetry(); }
   VideoStatus status() const { return exchange_.status(clock_.now()); }
 
  private:
@@ -74,7 +76,7 @@ class RtspSource::Impl {
     Outcome outcome;
     std::string why;
     try {
-      const RtspSession session{url_, config_, clock_, exchange_};
+      const RtspSession session{url_, config_, clock_, camera_clock_, exchange_};
       why = session.wait_until_over(stop_);
       outcome = {session.has_delivered(), session.is_server_at_fault()};
     } catch (const std::exception& error) {
@@ -89,6 +91,7 @@ class RtspSource::Impl {
   const std::string url_;
   const VideoConfig config_;
   const HostClock& clock_;
+  CameraClock camera_clock_;  // outlives connections
   FrameExchange exchange_;
   std::mutex mutex_;
   std::condition_variable stopped_;
@@ -103,6 +106,10 @@ RtspSource::~RtspSource() = default;
 
 std::optional<VideoFrame> RtspSource::next(Duration timeout) {
   return impl_->next(timeout);
+}
+
+std::vector<FrameTelemetry> RtspSource::take_telemetry() {
+  return impl_->take_telemetry();
 }
 
 VideoStatus RtspSource::status() const {

@@ -23,6 +23,8 @@ const char* to_string(TimeQuality quality) {
       return "recovered";
     case TimeQuality::kFile:
       return "file";
+    case TimeQuality::kTelemetry:
+      return "telemetry";
   }
   return "unknown";
 }

@@ -11,6 +11,7 @@
 
 #include "geoloc/io/partial_file.hpp"
 #include "gst_pipeline.hpp"
+#include "sei_buffer.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -38,7 +39,9 @@ class VideoFile::Impl {
     gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING);
   }
 
-  void add(const cv::Mat& bgr, Duration time) {
+  bool takes_telemetry() const { return is_h264_; }
+
+  void add(const cv::Mat& bgr, Duration time, const std::optional<VideoTelemetry>& telemetry) {
     while (gst_app_src_get_current_level_buffers(source_) >= kLongestQueue)
       wait_for_message(GST_MESSAGE_ERROR, 10 * GST_MSECOND);
     wait_for_message(GST_MESSAGE_ERROR, 0);
@@ -46,6 +49,7 @@ class VideoFile::Impl {
     if (bgr.size() != size_) cv::resize(bgr, picture, size_);
     GstBufferPtr buffer = to_buffer(picture);
     GST_BUFFER_PTS(buffer.get()) = static_cast<GstClockTime>(std::max<Duration::rep>(0, time.count()));
+    if (telemetry && is_h264_) attach_telemetry(buffer.get(), to_json(*telemetry));
     gst_app_src_push_buffer(source_, buffer.release());
   }
 
@@ -70,8 +74,21 @@ class VideoFile::Impl {
     if (created_at_) set_creation_time(muxer);
     GstElement* sink = add_element(pipeline_.get(), "filesink");
     g_object_set(sink, "location", partial_.name().c_str(), nullptr);
-    if (gst_element_link_many(GST_ELEMENT(source_), converter, encoder, muxer, sink, nullptr) == FALSE)
-      fail("GStreamer's elements do not fit together");
+    bool fits = gst_element_link_many(GST_ELEMENT(source_), converter, encoder, nullptr) != FALSE &&
+                gst_element_link(muxer, sink) != FALSE;
+    fits =
+        fits && (is_h264_ ? link_with_telemetry(encoder, muxer) : gst_element_link(encoder, muxer) != FALSE);
+    if (!fits) fail("GStreamer's elements do not fit together");
+  }
+
+  /// Telemetry is written into the byte stream, from which the parser makes what the container has.
+  bool link_with_telemetry(GstElement* encoder, GstElement* muxer) {
+    const GstCapsPtr byte_stream{gst_caps_from_string("video/x-h264,stream-format=byte-stream,alignment=au")};
+    const GstObjectPtr<GstPad> encoded{gst_element_get_static_pad(encoder, "src")};
+    write_telemetry_at(encoded.get());
+    GstElement* parser = add_element(pipeline_.get(), "h264parse");
+    return gst_element_link_filtered(encoder, parser, byte_stream.get()) != FALSE &&
+           gst_element_link(parser, muxer) != FALSE;
   }
 
   void set_creation_time(GstElement* muxer) const {
@@ -83,7 +100,8 @@ class VideoFile::Impl {
 
   GstElement* add_encoder() {
     const bool is_even = size_.width % 2 == 0 && size_.height % 2 == 0;
-    if (!is_even || !has_element("x264enc")) return add_element(pipeline_.get(), "jpegenc");
+    is_h264_ = is_even && has_element("x264enc") && has_element("h264parse");
+    if (!is_h264_) return add_element(pipeline_.get(), "jpegenc");
     GstElement* encoder = add_element(pipeline_.get(), "x264enc");
     gst_util_set_object_arg(G_OBJECT(encoder), "speed-preset", "veryfast");
     gst_util_set_object_arg(G_OBJECT(encoder), "pass", "quant");
@@ -107,6 +125,7 @@ class VideoFile::Impl {
   PartialFile partial_;
   cv::Size size_;
   std::optional<HostTime> created_at_;
+  bool is_h264_ = false;
   GstPipelinePtr pipeline_;      // keeps the file open: destroyed first
   GstAppSrc* source_ = nullptr;  // owned by the pipeline
 };
@@ -116,8 +135,12 @@ VideoFile::VideoFile(std::filesystem::path file, cv::Size size, std::optional<Ho
 
 VideoFile::~VideoFile() = default;
 
-void VideoFile::add(const cv::Mat& bgr, Duration time) {
-  impl_->add(bgr, time);
+void VideoFile::add(const cv::Mat& bgr, Duration time, const std::optional<VideoTelemetry>& telemetry) {
+  impl_->add(bgr, time, telemetry);
+}
+
+bool VideoFile::takes_telemetry() const {
+  return impl_->takes_telemetry();
 }
 
 void VideoFile::finish() {

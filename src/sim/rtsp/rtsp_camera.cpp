@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "geoloc/geometry/problems.hpp"
+#include "io/video/sei_buffer.hpp"
 
 namespace geoloc::sim {
 namespace {
@@ -43,10 +44,10 @@ std::string launch_line(const RtspCameraSettings& settings) {
          std::to_string(settings.width_px) + ",height=" + std::to_string(settings.height_px) +
          ",framerate=" + std::to_string(numerator) + "/" + std::to_string(denominator) +
          " ! videoconvert ! video/x-raw,format=I420"
-         " ! x264enc tune=zerolatency speed-preset=ultrafast bitrate=" +
+         " ! x264enc name=encoder tune=zerolatency speed-preset=ultrafast bitrate=" +
          std::to_string(settings.bitrate_kbps) +
          " key-int-max=" + std::to_string(std::max(1L, std::lround(settings.frame_rate_hz))) +
-         " ! video/x-h264,stream-format=byte-stream ! h264parse config-interval=-1"
+         " ! video/x-h264,stream-format=byte-stream,alignment=au ! h264parse config-interval=-1"
          " ! rtph264pay name=pay0 pt=96 config-interval=0 )";
 }
 
@@ -160,6 +161,9 @@ RtspCamera::Server::~Server() {
 void RtspCamera::Server::on_media_configured(GstRTSPMediaFactory* /*factory*/, GstRTSPMedia* media,
                                              Server* self) {
   const GstObjectPtr<GstElement> pipeline(gst_rtsp_media_get_element(media));
+  const GstObjectPtr<GstElement> encoder(gst_bin_get_by_name(GST_BIN(pipeline.get()), "encoder"));
+  const GstObjectPtr<GstPad> encoded(gst_element_get_static_pad(encoder.get(), "src"));
+  io::write_telemetry_at(encoded.get());
   g_signal_connect(media, "prepared", G_CALLBACK(report_often), nullptr);
   g_signal_connect(media, "unprepared", G_CALLBACK(on_media_unprepared), self);
   const std::lock_guard<std::mutex> lock(self->mutex);
@@ -215,7 +219,8 @@ bool RtspCamera::is_watched() const {
   return server_->playing_source() != nullptr;
 }
 
-bool RtspCamera::push(const std::uint8_t* bgr, std::chrono::steady_clock::time_point stamp) {
+bool RtspCamera::push(const std::uint8_t* bgr, std::chrono::steady_clock::time_point stamp,
+                      const std::optional<io::VideoTelemetry>& telemetry) {
   const GstObjectPtr<GstElement> source = server_->playing_source();
   if (!source) return false;
   // GStreamer's system clock and steady_clock are the same clock of the kernel, so the stamp needs no second
@@ -228,6 +233,7 @@ bool RtspCamera::push(const std::uint8_t* bgr, std::chrono::steady_clock::time_p
   GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, size, nullptr);
   gst_buffer_fill(buffer, 0, bgr, size);
   GST_BUFFER_PTS(buffer) = static_cast<GstClockTime>(since_start);
+  if (telemetry) io::attach_telemetry(buffer, io::to_json(*telemetry));
   return gst_app_src_push_buffer(GST_APP_SRC(source.get()), buffer) == GST_FLOW_OK;
 }
 

@@ -50,6 +50,53 @@ TEST(VideoFile, PlaysWhatWasAddedAtItsTime) {
   }
 }
 
+VideoTelemetry telemetry_of_picture(int number) {
+  VideoTelemetry telemetry;
+  telemetry.made_at = CameraTime{std::chrono::seconds{1'790'000'000} + milliseconds{70 * number}};
+  telemetry.vehicle = {{0.0, 0.0, 0.01 * number}, milliseconds{number}};
+  telemetry.zoom = 1.0 + number;
+  return telemetry;
+}
+
+TEST(VideoFile, TelemetryComesBackWithItsPicture) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.path() / "a.mkv";
+  VideoFile video(file, {160, 120});
+  ASSERT_TRUE(video.takes_telemetry());
+  for (int i = 0; i < kPictures; ++i) {
+    const bool has_telemetry = i != 5;
+    video.add(grey(40 + 15 * i, {160, 120}), milliseconds{70 * i},
+              has_telemetry ? std::optional(telemetry_of_picture(i)) : std::nullopt);
+  }
+  video.finish();
+  expect_comes_back(file, {160, 120});
+  const HostClock clock;
+  FileSource source{file, {Pace::kAsTaken, HostTime{}}, {}, clock};
+  for (int i = 0; i < kPictures; ++i) {
+    const auto frame = source.next(std::chrono::seconds{40});
+    ASSERT_TRUE(frame) << i;
+    ASSERT_EQ(frame->telemetry.has_value(), i != 5) << i;
+    if (!frame->telemetry) continue;
+    EXPECT_EQ(to_json(frame->telemetry->record), to_json(telemetry_of_picture(i))) << i;
+  }
+  EXPECT_EQ(source.status().with_telemetry, kPictures - 1U);
+  EXPECT_EQ(source.take_telemetry().size(), kPictures - 1U);
+  EXPECT_TRUE(source.take_telemetry().empty());
+}
+
+TEST(VideoFile, JpegTakesNoTelemetry) {
+  const testing::TemporaryFolder folder;
+  VideoFile video(folder.path() / "a.mkv", {161, 91});
+  EXPECT_FALSE(video.takes_telemetry());
+  video.add(grey(100, {161, 91}), milliseconds{0}, telemetry_of_picture(1));
+  video.finish();
+  const HostClock clock;
+  FileSource source{folder.path() / "a.mkv", {Pace::kAsTaken, HostTime{}}, {}, clock};
+  const auto frame = source.next(std::chrono::seconds{40});
+  ASSERT_TRUE(frame);
+  EXPECT_FALSE(frame->telemetry);
+}
+
 TEST(VideoFile, ThatIsNotFinishedIsNotLeftBehind) {
   const testing::TemporaryFolder folder;
   {

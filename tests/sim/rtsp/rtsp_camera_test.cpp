@@ -72,7 +72,9 @@ class Painter {
         const std::lock_guard<std::mutex> lock(mutex_);
         stamps_[number] = stamp;
       }
-      camera.push(picture_of(number).data(), stamp);
+      io::VideoTelemetry telemetry;
+      telemetry.zoom = number + 1.0;
+      camera.push(picture_of(number).data(), stamp, telemetry);
       std::this_thread::sleep_for(std::chrono::milliseconds{50});
     }
   }
@@ -96,6 +98,22 @@ TEST(RtspCamera, StreamTellsTheStampOfEachPicture) {
     EXPECT_NEAR(seconds(frame->captured_at - expected), 0.0, 0.002);
     ++recovered;
   }
+}
+
+TEST(RtspCamera, TelemetryComesWithItsPicture) {
+  const io::HostClock clock;
+  RtspCamera camera(small_camera());
+  Painter painter(camera);
+  io::RtspSource receiver(camera.url(), io::VideoConfig{}, clock);
+  for (int checked = 0; checked < 20;) {
+    const auto frame = receiver.next(std::chrono::seconds{1});
+    if (!frame) continue;
+    ASSERT_TRUE(frame->telemetry);
+    EXPECT_EQ(frame->telemetry->record.zoom, number_in(frame->bgr) + 1.0);
+    EXPECT_EQ(frame->telemetry->made_at <= frame->received_at, true);
+    ++checked;
+  }
+  EXPECT_GE(receiver.take_telemetry().size(), 20U);
 }
 
 TEST(RtspCamera, KnowsWhetherSomeoneWatchesAndServesTheNextOne) {

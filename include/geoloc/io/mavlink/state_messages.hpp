@@ -20,6 +20,9 @@ struct GnssClaim {
 /// Each call uses one sequence number. Times are rounded to the milliseconds that the messages have.
 class StateWriter {
  public:
+  /// `system`: the vehicle's id, 1 to 255.
+  explicit StateWriter(std::uint8_t system = 1) : system_(system) {}
+
   OutgoingFrame heartbeat();
 
   /// ATTITUDE; rates that the sample does not tell are NaN.
@@ -40,6 +43,7 @@ class StateWriter {
   OutgoingFrame gimbal_device(const GimbalSample& sample, bool holds_direction);
   OutgoingFrame mount_orientation(const GimbalSample& sample);
 
+  std::uint8_t system_;
   std::uint8_t sequence_ = 0;
 };
 

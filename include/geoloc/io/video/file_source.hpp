@@ -41,6 +41,7 @@ class FileSource final : public VideoSource {
   FileSource& operator=(const FileSource&) = delete;
 
   std::optional<VideoFrame> next(Duration timeout) override;
+  std::vector<FrameTelemetry> take_telemetry() override;
   VideoStatus status() const override;
 
   /// Known from the beginning.

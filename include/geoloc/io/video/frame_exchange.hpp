@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geoloc/io/video/video_source.hpp"
 
@@ -23,6 +24,9 @@ class FrameExchange {
 
   /// See VideoSource::next().
   std::optional<VideoFrame> take(Duration timeout);
+
+  /// See VideoSource::take_telemetry().
+  std::vector<FrameTelemetry> take_telemetry();
 
   /// No more frames will come; an offered frame can still be taken. Wakes all waiting threads.
   void end();
@@ -43,6 +47,7 @@ class FrameExchange {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<VideoFrame> frame_;
+  std::deque<FrameTelemetry> telemetry_;  // that nobody took
   VideoStatus status_;
   std::deque<HostTime> recent_;  // when the frames of the last seconds came
 };

@@ -24,6 +24,7 @@ class RtspSource final : public VideoSource {
   RtspSource& operator=(const RtspSource&) = delete;
 
   std::optional<VideoFrame> next(Duration timeout) override;
+  std::vector<FrameTelemetry> take_telemetry() override;
   VideoStatus status() const override;
 
  private:

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
 
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/io/sei/video_telemetry.hpp"
 
 namespace geoloc::io {
 
@@ -14,10 +16,17 @@ enum class TimeQuality {
                   ///< best
   kUnconfirmed,   ///< from the sender's first report, not confirmed yet
   kRecovered,     ///< from reports that agree: the sender's own UTC time of capture
-  kFile           ///< from the time stamps of a file
+  kFile,          ///< from the time stamps of a file
+  kTelemetry      ///< from the telemetry in the frame: when it was put into the stream, by the camera's clock
 };
 
 const char* to_string(TimeQuality quality);
+
+/// Telemetry that came in a frame.
+struct FrameTelemetry {
+  HostTime made_at;  ///< VideoTelemetry::made_at on the host's clock (CameraClock)
+  VideoTelemetry record;
+};
 
 struct VideoFrame {
   cv::Mat bgr;           ///< 8 bits, 3 channels, not empty; not shared
@@ -25,6 +34,7 @@ struct VideoFrame {
   HostTime received_at;  ///< when the frame's first packet arrived (a file: when it was decoded)
   TimeQuality time_quality = TimeQuality::kArrival;
   bool damaged = false;  ///< some of its data was lost, or of a picture it refers to
+  std::optional<FrameTelemetry> telemetry = std::nullopt;  ///< where it carries any
 };
 
 }  // namespace geoloc::io

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/io/video/video_frame.hpp"
@@ -27,8 +28,9 @@ struct VideoStatus {
   std::uint64_t frames = 0;                          ///< decoded
   std::uint64_t dropped = 0;                         ///< replaced by a newer one before they were taken
   std::uint64_t damaged = 0;                         ///< see VideoFrame::damaged
-  std::uint64_t refused = 0;  ///< not usable as pictures: empty, absurdly large, without time
-  std::uint64_t packets = 0;  ///< that came
+  std::uint64_t refused = 0;         ///< not usable as pictures: empty, absurdly large, without time
+  std::uint64_t with_telemetry = 0;  ///< frames that carried telemetry
+  std::uint64_t packets = 0;         ///< that came
   std::uint64_t lost_packets = 0;
   std::uint64_t attempts = 0;  ///< connections tried, the first one included
 };
@@ -42,6 +44,10 @@ class VideoSource {
   /// was too slow for, so a backlog never builds up. Returns at once, empty, where state is kEnded. The size
   /// of the pictures may change from one frame to the next.
   virtual std::optional<VideoFrame> next(Duration timeout) = 0;
+
+  /// The telemetry of all frames since the last call, in their order, also of those that next() left out.
+  /// What nobody takes is forgotten after some seconds.
+  virtual std::vector<FrameTelemetry> take_telemetry() { return {}; }
 
   virtual VideoStatus status() const = 0;
 

@@ -4,8 +4,11 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "geoloc/io/sei/video_telemetry.hpp"
 
 namespace geoloc::sim {
 
@@ -37,9 +40,10 @@ class RtspCamera {
   /// Whether someone watches: then pictures are wanted.
   bool is_watched() const;
 
-  /// `bgr`: height x width x 3 bytes without gaps; copied. Stamps must rise. Does not wait: false where the
-  /// picture was not taken because nobody watches.
-  bool push(const std::uint8_t* bgr, std::chrono::steady_clock::time_point stamp);
+  /// `bgr`: height x width x 3 bytes without gaps; copied. Stamps must rise. `telemetry`, where there is any,
+  /// goes into the frame. Does not wait: false where the picture was not taken because nobody watches.
+  bool push(const std::uint8_t* bgr, std::chrono::steady_clock::time_point stamp,
+            const std::optional<io::VideoTelemetry>& telemetry = std::nullopt);
 
  private:
   struct Server;
