@@ -5,6 +5,7 @@
 #include <chrono>
 #include <vector>
 
+#include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 
 namespace geoloc::apps {
@@ -52,6 +53,9 @@ io::OutgoingFrame VideoVehicle::message(const Due& due, const io::VideoTelemetry
       return writer_.position(position_sample(due.at, record));
     case Kind::kGimbal:
       return writer_.gimbal({boot_time(due.at), ned_from_body(record.gimbal->angles), GimbalYaw::kFromNose});
+    case Kind::kFieldOfView:
+      return writer_.field_of_view(
+          {boot_time(due.at), *record.horizontal_fov_deg * kRadPerDeg, std::nullopt});
   }
   return writer_.heartbeat();
 }
@@ -85,6 +89,7 @@ void VideoVehicle::tell(HostTime made_at, const io::VideoTelemetry& record, cons
   add(record.vehicle, Kind::kAttitude);
   add(record.position, Kind::kPosition);
   add(record.gimbal, Kind::kGimbal);
+  if (record.horizontal_fov_deg) due.push_back({made_at, Kind::kFieldOfView});
   std::stable_sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.at < b.at; });
   for (const Due& next : due) {
     const io::OutgoingFrame frame = message(next, record);

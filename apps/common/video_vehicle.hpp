@@ -33,7 +33,7 @@ class VideoVehicle {
   void tell(HostTime made_at, const io::VideoTelemetry& record, const Tell& tell);
 
  private:
-  enum class Kind { kAttitude, kPosition, kGimbal };
+  enum class Kind { kAttitude, kPosition, kGimbal, kFieldOfView };
   struct Due {
     HostTime at;  ///< when what it tells was so
     Kind kind;

@@ -90,8 +90,8 @@ ToldVideo read_told_video(const std::filesystem::path& file, const StopSignal& s
   if (refused > 0)
     video.notes.push_back(fmt::format("{} of them tell values that cannot be, which are left out", refused));
   if (has_zoomed)
-    video.assumptions.emplace_back(
-        "the video's field of view changes: that of its first frame, or of --camera, is taken for all");
+    video.notes.emplace_back(
+        "the camera zooms: its frames tell the field of view, and the calibration is that of the first one");
   return video;
 }
 

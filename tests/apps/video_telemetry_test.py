@@ -52,8 +52,8 @@ class TelemetryInStreams(Played):
             app.wait_for("objects [1-9]", after=app.line_count() - 1)
             self.assertEqual(app.interrupt(), 0, app.lines)
         self.assert_found_and_replayed()
-        heartbeat, attitude, position = 0, 30, 33
-        self.assertEqual(set(messages_of(self.recording)), {heartbeat, attitude, position})
+        heartbeat, attitude, position, field_of_view = 0, 30, 33, 271
+        self.assertEqual(set(messages_of(self.recording)), {heartbeat, attitude, position, field_of_view})
 
     def test_mavlink_that_is_asked_for_goes_before(self):
         world = World()
@@ -109,6 +109,19 @@ class TelemetryInVideos(VideoTest, Played):
                      self.labels())
         self.assertEqual(result.status, 0, result.err)
         self.assertIn(265, messages_of(self.recording))
+        (found, error_m, replayed), (live_found, live_error_m, _) = self.score(self.recording), self.score(sim)
+        self.assertEqual(found, live_found, replayed)
+        self.assertLessEqual(error_m, 1.2 * live_error_m + 0.02, replayed)
+
+    def test_a_camera_that_zooms_tells_it(self):
+        sim = self.folder / "sim"
+        made = run("geoloc_sim", "--record", sim, "--video", "--sei", "--zoom", "1..4", "--start-s", 80, "--end-s", 110)
+        self.assertEqual(made.status, 0, made.err)
+        self.video, self.camera, self.sim = sim / "video.mkv", sim / "camera.json", sim
+        result = run("geoloc_import", "video", self.video, "--out", self.recording, "--camera", self.camera, "--labels",
+                     self.labels())
+        self.assertEqual(result.status, 0, result.err)
+        self.assertIn("the camera zooms", result.err)
         (found, error_m, replayed), (live_found, live_error_m, _) = self.score(self.recording), self.score(sim)
         self.assertEqual(found, live_found, replayed)
         self.assertLessEqual(error_m, 1.2 * live_error_m + 0.02, replayed)

@@ -9,6 +9,7 @@
 
 #include "common/link_message.hpp"
 #include "common/session.hpp"
+#include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
 
@@ -137,6 +138,23 @@ TEST(VideoVehicle, AttitudesAndAnglesPassUnchanged) {
     }
   }
   EXPECT_EQ(checked, 2);
+}
+
+TEST(VideoVehicle, FramesAreLocatedWithTheFieldOfViewThatTheyTell) {
+  Session session(EstimationConfig{});
+  const CameraIntrinsics& image = session.geolocator().projector().camera().intrinsics();
+  const double half_width = 0.5 * image.width_px / image.fx_px;
+  VideoVehicle vehicle(1);
+  for (HostTime made_at = kFilmed; made_at < kFilmed + 10s; made_at += 40ms) {
+    io::VideoTelemetry record = record_at(made_at, 10ms, 20ms);
+    const double zoom = made_at < kFilmed + 5s ? 1.0 : 2.0;
+    record.horizontal_fov_deg = 2.0 * std::atan(half_width / zoom) * kDegPerRad;
+    for (const ToldMessage& told : told_by(vehicle, made_at, record))
+      session.add_telemetry(told.at, told.bytes.data(), told.bytes.size());
+  }
+  EXPECT_TRUE(session.process({kFilmed + 9s, {}, 0.02}));
+  const Geolocator& geolocator = session.geolocator();
+  EXPECT_NEAR(geolocator.projector().focal_px(geolocator.view()).x(), 2.0 * image.fx_px, 0.001 * image.fx_px);
 }
 
 TEST(VideoVehicle, VelocitiesThatAreNotToldAreThoseBetweenPositions) {

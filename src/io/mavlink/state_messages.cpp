@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "geoloc/geometry/angles.hpp"
@@ -93,6 +94,22 @@ OutgoingFrame StateWriter::gnss(const PositionSample& sample, const GnssClaim& c
 
 OutgoingFrame StateWriter::gimbal(const GimbalSample& sample) {
   return sample.holds_direction ? gimbal_device(sample, *sample.holds_direction) : mount_orientation(sample);
+}
+
+OutgoingFrame StateWriter::field_of_view(const FieldOfViewSample& sample) {
+  constexpr auto kNowhere = std::numeric_limits<std::int32_t>::max();
+  const auto degrees = [](const std::optional<double>& angle_rad) {
+    return angle_rad ? static_cast<float>(*angle_rad * kDegPerRad) : kNoNumber;
+  };
+  mavlink_camera_fov_status_t fields{};
+  fields.time_boot_ms = milliseconds(sample.time);
+  fields.lat_camera = fields.lon_camera = fields.alt_camera = kNowhere;
+  fields.lat_image = fields.lon_image = fields.alt_image = kNowhere;
+  std::fill(std::begin(fields.q), std::end(fields.q), kNoNumber);
+  fields.hfov = degrees(sample.horizontal_rad);
+  fields.vfov = degrees(sample.vertical_rad);
+  return pack({system_, MAV_COMP_ID_CAMERA}, camera_sequence_++, true,
+              mavlink_msg_camera_fov_status_encode_status, fields);
 }
 
 OutgoingFrame StateWriter::gimbal_device(const GimbalSample& sample, bool holds_direction) {

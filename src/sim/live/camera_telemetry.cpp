@@ -55,7 +55,7 @@ EulerAngles from_nose(const GimbalSample& gimbal, double vehicle_yaw_rad) {
 
 CameraTelemetry::CameraTelemetry(const Flight& flight, const FlightClock& clock,
                                  const CameraIntrinsics& camera)
-    : clock_(clock), horizontal_fov_deg_(2.0 * std::atan(0.5 * camera.width_px / camera.fx_px) * kDegPerRad) {
+    : flight_(flight), clock_(clock), half_width_(0.5 * camera.width_px / camera.fx_px) {
   std::vector<RecordedStream> streams = recorded_streams(flight);
   attitudes_ = stream_of(streams, {MAVLINK_MSG_ID_ATTITUDE});
   positions_ = stream_of(streams, {MAVLINK_MSG_ID_GLOBAL_POSITION_INT});
@@ -71,8 +71,8 @@ io::VideoTelemetry CameraTelemetry::at(HostTime stamp) const {
   };
   io::VideoTelemetry telemetry;
   telemetry.made_at = io::CameraTime{stamp.time_since_epoch()};
-  telemetry.zoom = 1.0;
-  telemetry.horizontal_fov_deg = horizontal_fov_deg_;
+  telemetry.zoom = flight_.zoom_at(now);
+  telemetry.horizontal_fov_deg = 2.0 * std::atan(half_width_ / *telemetry.zoom) * kDegPerRad;
   double yaw_rad = 0.0;
   if (const auto told = latest<io::AttitudeMessage>(attitudes_, now)) {
     const AttitudeSample& sample = told->first.sample;

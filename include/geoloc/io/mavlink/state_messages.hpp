@@ -39,12 +39,16 @@ class StateWriter {
   /// direction, MOUNT_ORIENTATION, which does not either.
   OutgoingFrame gimbal(const GimbalSample& sample);
 
+  /// CAMERA_FOV_STATUS of a camera that is a component of its own, and has the vehicle's clock.
+  OutgoingFrame field_of_view(const FieldOfViewSample& sample);
+
  private:
   OutgoingFrame gimbal_device(const GimbalSample& sample, bool holds_direction);
   OutgoingFrame mount_orientation(const GimbalSample& sample);
 
   std::uint8_t system_;
   std::uint8_t sequence_ = 0;
+  std::uint8_t camera_sequence_ = 0;
 };
 
 }  // namespace geoloc::io

@@ -22,8 +22,9 @@ class CameraTelemetry {
   io::VideoTelemetry at(HostTime stamp) const;
 
  private:
+  const Flight& flight_;
   const FlightClock& clock_;
-  double horizontal_fov_deg_;
+  double half_width_;  // of the picture at unit distance, where the camera does not zoom
   std::optional<RecordedStream> attitudes_;
   std::optional<RecordedStream> positions_;
   std::optional<RecordedStream> gimbal_;
