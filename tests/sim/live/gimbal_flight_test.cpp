@@ -5,35 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 #include <vector>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
-#include "geoloc/io/mavlink/frame_parser.hpp"
-#include "geoloc/io/mavlink/messages.hpp"
 #include "sim/flights_for_test.hpp"
+#include "sim/live/heard_messages.hpp"
 
 namespace geoloc::sim {
 namespace {
 
-struct Heard {
-  HostTime at;
-  io::GimbalMessage message;
-};
+using HeardGimbal = Heard<io::GimbalMessage>;
 
-std::vector<Heard> hear(const Flight& flight) {
-  std::vector<Heard> heard;
-  io::FrameParser parser;
-  for (const io::TlogRecord& record : flight.telemetry.records()) {
-    parser.append(record.frame, record.size);
-    while (const auto frame = parser.next()) {
-      const io::Message message = io::decode(*frame);
-      if (const auto* gimbal = std::get_if<io::GimbalMessage>(&message))
-        heard.push_back({record.received_at, *gimbal});
-    }
-  }
-  return heard;
+std::vector<HeardGimbal> hear_gimbals(const Flight& flight) {
+  return hear<io::GimbalMessage>(flight);
 }
 
 /// The same axes as the truth's, in level axes with x to the nose or to the local frame's north.
@@ -56,11 +41,11 @@ TEST(SimulatedGimbal, TellsHowItIsTurnedTenTimesASecond) {
       settings.told_yaw = from;
       settings.telling = telling;
       const Flight flight = with_gimbal(recorded, settings, 3);
-      const std::vector<Heard> heard = hear(flight);
+      const std::vector<HeardGimbal> heard = hear_gimbals(flight);
       const TimeSpan span = flight.truth.span();
       EXPECT_NEAR(static_cast<double>(heard.size()), 10.0 * seconds(span.end - span.begin), 2.0);
       double sum_rad2 = 0.0;
-      for (const Heard& one : heard) {
+      for (const HeardGimbal& one : heard) {
         const VehicleTime time =
             one.message.has_time ? one.message.sample.time : VehicleTime{one.at - flight.booted_at};
         const double off_rad =
@@ -103,7 +88,8 @@ TEST(SimulatedGimbal, ChangesNothingElseAndDependsOnTheSeed) {
   const Flight recorded = load("stock_path1");
   const Flight first = with_gimbal(recorded, {}, 3), again = with_gimbal(recorded, {}, 3),
                other = with_gimbal(recorded, {}, 4);
-  EXPECT_EQ(first.telemetry.records().size() - hear(first).size(), recorded.telemetry.records().size());
+  EXPECT_EQ(first.telemetry.records().size() - hear_gimbals(first).size(),
+            recorded.telemetry.records().size());
   const VehicleTime time = first.truth.survey().begin;
   EXPECT_EQ(first.gimbal->enu_from_gimbal(time).coeffs(), again.gimbal->enu_from_gimbal(time).coeffs());
   EXPECT_NE(first.gimbal->enu_from_gimbal(time).coeffs(), other.gimbal->enu_from_gimbal(time).coeffs());
@@ -114,9 +100,9 @@ TEST(SimulatedGimbal, WithAWrongFlagTellsTheSameAnglesUnderTheOtherName) {
   for (const GimbalTelling telling : {GimbalTelling::kDeviceStatus, GimbalTelling::kMountOrientation}) {
     GimbalSettings settings;
     settings.telling = telling;
-    const std::vector<Heard> right = hear(with_gimbal(recorded, settings, 3));
+    const std::vector<HeardGimbal> right = hear_gimbals(with_gimbal(recorded, settings, 3));
     settings.has_wrong_flag = true;
-    const std::vector<Heard> wrong = hear(with_gimbal(recorded, settings, 3));
+    const std::vector<HeardGimbal> wrong = hear_gimbals(with_gimbal(recorded, settings, 3));
     ASSERT_EQ(right.size(), wrong.size());
     for (std::size_t i = 0; i < right.size(); i += 50) {
       EXPECT_EQ(right[i].message.sample.level_from_gimbal.coeffs(),
@@ -130,9 +116,10 @@ TEST(SimulatedGimbal, ThatTellsItsSetPointTellsItWithoutNoise) {
   GimbalSettings settings;
   settings.tells_set_point = true;
   const Flight flight = with_gimbal(load("stock_path1"), settings, 3);
-  const std::vector<Heard> heard = hear(flight);
+  const std::vector<HeardGimbal> heard = hear_gimbals(flight);
   const Eigen::Quaterniond down = ned_from_body({0.0, -0.5 * kPi, 0.0});
-  for (const Heard& one : heard) EXPECT_LT(one.message.sample.level_from_gimbal.angularDistance(down), 1e-3);
+  for (const HeardGimbal& one : heard)
+    EXPECT_LT(one.message.sample.level_from_gimbal.angularDistance(down), 1e-3);
   const VehicleTime time = flight.truth.survey().begin;
   EXPECT_GT(true_level_from_gimbal(flight, time, GimbalYaw::kFromNose).angularDistance(down), 1e-4);
 }

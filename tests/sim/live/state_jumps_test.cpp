@@ -6,11 +6,10 @@
 #include <stdexcept>
 
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/io/mavlink/frame_parser.hpp"
-#include "geoloc/io/mavlink/messages.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/state/state_provider.hpp"
 #include "sim/flights_for_test.hpp"
+#include "sim/live/heard_messages.hpp"
 
 namespace geoloc::sim {
 namespace {
@@ -20,24 +19,19 @@ struct Told {
   std::vector<PositionSample> positions;
 };
 
-Told hear(const Flight& flight) {
+Told told_by(const Flight& flight) {
   Told told;
-  io::FrameParser parser;
-  for (const io::TlogRecord& record : flight.telemetry.records()) {
-    parser.append(record.frame, record.size);
-    while (const auto frame = parser.next()) {
-      const io::Message message = io::decode(*frame);
-      if (const auto* attitude = std::get_if<io::AttitudeMessage>(&message))
-        (attitude->from_quaternion ? told.from_quaternions : told.attitudes).push_back(attitude->sample);
-      if (const auto* position = std::get_if<PositionSample>(&message)) told.positions.push_back(*position);
-    }
-  }
+  hear_messages(flight, [&](HostTime, const io::Message& message) {
+    if (const auto* attitude = std::get_if<io::AttitudeMessage>(&message))
+      (attitude->from_quaternion ? told.from_quaternions : told.attitudes).push_back(attitude->sample);
+    if (const auto* position = std::get_if<PositionSample>(&message)) told.positions.push_back(*position);
+  });
   return told;
 }
 
 /// What a receiver notices in the order of the stamps.
 StateProvider::Counters notice(const Flight& flight) {
-  const Told told = hear(flight);
+  const Told told = told_by(flight);
   StateProvider provider(StateConfig{});
   auto position = told.positions.begin();
   for (const AttitudeSample& attitude : told.attitudes) {
@@ -76,7 +70,7 @@ TEST(StateJumps, AreSeenWhereTheyAreAndNowhereElse) {
 
 /// What is told while the jump lasts, and nothing else, differs by the jump.
 void expect_jump(const Flight& recorded, const StateJump& jump) {
-  const Told before = hear(recorded), after = hear(with_jump(recorded, jump));
+  const Told before = told_by(recorded), after = told_by(with_jump(recorded, jump));
   const LocalFrame& frame = recorded.truth.frame();
   const auto lasts_at = [&](VehicleTime time) { return time >= jump.when.begin && time < jump.when.end; };
   ASSERT_EQ(before.positions.size(), after.positions.size());

@@ -6,36 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <variant>
 #include <vector>
 
-#include "geoloc/io/mavlink/frame_parser.hpp"
-#include "geoloc/io/mavlink/messages.hpp"
 #include "sim/flights_for_test.hpp"
+#include "sim/live/heard_messages.hpp"
 
 namespace geoloc::sim {
 namespace {
 
-struct Heard {
-  VehicleTime at;
-  io::FieldOfViewMessage message;
-};
+using HeardView = Heard<io::FieldOfViewMessage>;
 
-std::vector<Heard> hear(const Flight& flight) {
-  std::vector<Heard> heard;
-  io::FrameParser parser;
-  for (const io::TlogRecord& record : flight.telemetry.records()) {
-    parser.append(record.frame, record.size);
-    while (const auto frame = parser.next()) {
-      const io::Message message = io::decode(*frame);
-      if (const auto* view = std::get_if<io::FieldOfViewMessage>(&message))
-        heard.push_back({VehicleTime{record.received_at - flight.booted_at}, *view});
-    }
-  }
-  return heard;
+std::vector<HeardView> hear_views(const Flight& flight) {
+  return hear<io::FieldOfViewMessage>(flight);
 }
 
-double told_zoom(const Heard& heard, const CameraIntrinsics& camera) {
+double told_zoom(const HeardView& heard, const CameraIntrinsics& camera) {
   return 0.5 * camera.width_px / std::tan(0.5 * *heard.message.sample.horizontal_rad) / camera.fx_px;
 }
 
@@ -43,18 +28,19 @@ double told_zoom(const Heard& heard, const CameraIntrinsics& camera) {
 TEST(SimulatedZoom, TellsWhatItSeesFiveTimesASecond) {
   const CameraIntrinsics camera = CameraIntrinsics::from_field_of_view(1280, 720, 70.0);
   const Flight flight = with_zoom(load("stock_path1"), {1.0, 4.0}, camera, 3);
-  const std::vector<Heard> heard = hear(flight);
+  const std::vector<HeardView> heard = hear_views(flight);
   const TimeSpan span = flight.truth.span();
   EXPECT_NEAR(static_cast<double>(heard.size()), 5.0 * seconds(span.end - span.begin), 2.0);
   const double nominal = told_zoom(heard.front(), camera);
   EXPECT_NEAR(nominal, 1.0, 0.04);
   double least = 10.0, most = 0.0;
   for (std::size_t i = 0; i < heard.size(); ++i) {
+    const VehicleTime heard_at{heard[i].at - flight.booted_at};
     const VehicleTime told_at = span.begin + i * std::chrono::milliseconds{200};
     const double zoom = flight.zoom_at(told_at - std::chrono::milliseconds{50});
     EXPECT_NEAR(told_zoom(heard[i], camera) / nominal / zoom, 1.0, 0.01) << i;
-    EXPECT_GE(heard[i].at - told_at, std::chrono::milliseconds{20});
-    EXPECT_LE(heard[i].at - told_at, std::chrono::milliseconds{80});
+    EXPECT_GE(heard_at - told_at, std::chrono::milliseconds{20});
+    EXPECT_LE(heard_at - told_at, std::chrono::milliseconds{80});
     least = std::min(least, zoom);
     most = std::max(most, zoom);
   }
@@ -75,7 +61,9 @@ TEST(SimulatedZoom, NeverRunsFasterThanItsMotors) {
 
 TEST(SimulatedZoom, IsTheSameForTheSameSeed) {
   const Flight flown = load("stock_path1");
-  const auto bytes = [&](std::uint64_t seed) { return hear(with_zoom(flown, {}, CameraIntrinsics{}, seed)); };
+  const auto bytes = [&](std::uint64_t seed) {
+    return hear_views(with_zoom(flown, {}, CameraIntrinsics{}, seed));
+  };
   const auto first = bytes(1), again = bytes(1), other = bytes(2);
   ASSERT_EQ(first.size(), again.size());
   bool differs = false;
