@@ -164,9 +164,9 @@ TEST_P(AssignmentOfManyKinds, CostIsThatOfAugmentingPathsWithoutReductions) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform;
   const auto places = [&](int count) {
-    std::vector<Eigen::Vector2d> places;
-    for (int i = 0; i < count; ++i) places.emplace_back(uniform(random), uniform(random));
-    return places;
+    std::vector<Eigen::Vector2d> drawn;
+    for (int i = 0; i < count; ++i) drawn.emplace_back(uniform(random), uniform(random));
+    return drawn;
   };
   for (const auto& [rows, columns] : {Shape{40, 40}, Shape{80, 17}, Shape{16, 64}, Shape{33, 31},
                                       Shape{1, 50}, Shape{50, 2}, Shape{100, 100}, Shape{15, 16}}) {
