@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 
 constexpr VehicleTime kStart{60s};
 constexpr double kHeight_m = 140.0;  // a thousand objects are in the image
-constexpr double kSpacing_m = 3.0;  // beyond gate and merging distance
+constexpr double kSpacing_m = 3.0;   // beyond gate and merging distance
 
 /// Adds telemetry of a vehicle that hovers level with its nose to the north.
 void hover(Geolocator& geolocator, VehicleTime time) {
