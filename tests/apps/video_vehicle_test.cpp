@@ -12,6 +12,7 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
+#include "geoloc/projection/projector.hpp"
 
 namespace geoloc::apps {
 namespace {
