@@ -17,17 +17,15 @@ namespace {
 
 /// As joint.prior.sigma_latency_s has it by default: what cameras are late by.
 constexpr double kLatencySigma_s = 0.3;
-/// Of the field of view: less is the rounding of a zoom that stays as it is.
+/// Fields of view that differ by less are one, rounded: the zoom stays as it is.
 constexpr double kSameFov_deg = 0.1;
 
 /// Collects records of a MAVLink log.
 class TlogMaker {
  public:
   void add(HostTime at, const std::uint8_t* frame, std::size_t size) {
-    const auto stamp_us = static_cast<std::uint64_t>(
-        std::chrono::floor<std::chrono::microseconds>(at.time_since_epoch()).count());
-    for (int shift = 56; shift >= 0; shift -= 8)
-      bytes_.push_back(static_cast<std::uint8_t>(stamp_us >> static_cast<unsigned>(shift)));
+    const auto stamp = io::tlog_stamp(std::chrono::floor<std::chrono::microseconds>(at.time_since_epoch()));
+    bytes_.insert(bytes_.end(), stamp.begin(), stamp.end());
     bytes_.insert(bytes_.end(), frame, frame + size);
   }
 

@@ -14,6 +14,7 @@
 #include "geoloc/io/json/detection_fields.hpp"
 #include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/recording_files.hpp"
+#include "geoloc/io/recording/tlog.hpp"
 #include "geoloc/io/sync.hpp"
 #include "geoloc/io/write_failure.hpp"
 
@@ -138,10 +139,10 @@ void RecordingWriter::write_damaged(std::uint64_t frames) {
 }
 
 void RecordingWriter::add_telemetry(HostTime received_at, const std::uint8_t* frame, std::size_t size) {
-  const auto stamp_us = static_cast<std::uint64_t>(microseconds(received_at));
+  const auto stamp = tlog_stamp(std::chrono::microseconds{microseconds(received_at)});
   std::string record;
-  record.reserve(8 + size);
-  for (int shift = 56; shift >= 0; shift -= 8) record.push_back(static_cast<char>(stamp_us >> shift & 0xFF));
+  record.reserve(stamp.size() + size);
+  record.append(stamp.begin(), stamp.end());
   record.append(reinterpret_cast<const char*>(frame), size);
   telemetry_.append(record);
   ++telemetry_records_;

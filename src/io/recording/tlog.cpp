@@ -53,6 +53,14 @@ bool starts_chain(const std::vector<std::uint8_t>& bytes, std::size_t offset) {
 
 }  // namespace
 
+std::array<std::uint8_t, kStampSize> tlog_stamp(std::chrono::microseconds since_epoch) {
+  std::array<std::uint8_t, kStampSize> bytes{};
+  auto rest = static_cast<std::uint64_t>(since_epoch.count());
+  for (auto byte = bytes.rbegin(); byte != bytes.rend(); ++byte, rest >>= 8U)
+    *byte = static_cast<std::uint8_t>(rest & 0xFFU);
+  return bytes;
+}
+
 Tlog::Tlog(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {
   std::size_t offset = 0;
   bool in_step = true;

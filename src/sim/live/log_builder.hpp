@@ -33,10 +33,9 @@ class LogBuilder {
     std::stable_sort(records_.begin(), records_.end(), is_earlier);
     std::vector<std::uint8_t> bytes;
     for (const auto& [received_at, frame] : records_) {
-      const auto stamp_us = static_cast<std::uint64_t>(
-          std::chrono::round<std::chrono::microseconds>(received_at.time_since_epoch()).count());
-      for (int shift = 56; shift >= 0; shift -= 8)
-        bytes.push_back(static_cast<std::uint8_t>(stamp_us >> static_cast<unsigned>(shift)));
+      const auto stamp =
+          io::tlog_stamp(std::chrono::round<std::chrono::microseconds>(received_at.time_since_epoch()));
+      bytes.insert(bytes.end(), stamp.begin(), stamp.end());
       bytes.insert(bytes.end(), frame.begin(), frame.end());
     }
     return io::Tlog(std::move(bytes));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +19,9 @@ struct TlogRecord {
   const std::uint8_t* frame;
   std::size_t size;
 };
+
+/// What stands before the frame in a record: big-endian UNIX microseconds.
+std::array<std::uint8_t, 8> tlog_stamp(std::chrono::microseconds since_epoch);
 
 /// A MAVLink log in memory: repeated 8-byte big-endian UNIX microseconds and one raw frame.
 class Tlog {
