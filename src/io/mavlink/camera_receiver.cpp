@@ -27,7 +27,9 @@ std::optional<FieldOfViewSample> CameraReceiver::take(std::uint8_t component,
     ++counts.other_cameras;
     return std::nullopt;
   }
-  const auto time = time_of(component, message.sample.time, received_at, clock);
+  const bool has_time = message.sample.time != VehicleTime{};
+  const auto stamp = has_time ? std::optional(message.sample.time) : std::nullopt;
+  const auto time = clock_.to_vehicle(component, stamp, received_at, clock);
   if (!time) {
     ++counts.suspect_stamps;
     return std::nullopt;
@@ -52,15 +54,6 @@ bool CameraReceiver::has_changed(const FieldOfViewSample& sample) {
   if (!first_angle_rad_) first_angle_rad_ = angle_rad;
   has_changed_ = has_changed_ || std::abs(angle_rad - *first_angle_rad_) > kLeastChange * *first_angle_rad_;
   return has_changed_;
-}
-
-/// nullopt where the time cannot be. A component of its own has a boot clock of its own.
-std::optional<VehicleTime> CameraReceiver::time_of(std::uint8_t component, VehicleTime stamp,
-                                                   HostTime received_at, const VehicleClock& clock) {
-  if (stamp == VehicleTime{}) return clock.map.to_vehicle(received_at);
-  if (component != kAutopilotComponent) return clock_.to_vehicle(stamp, received_at, clock.map);
-  if (!clock.boot.is_near_newest(stamp) || clock.map.is_early(stamp, received_at)) return std::nullopt;
-  return stamp;
 }
 
 void CameraReceiver::note(const ZoomLevel& level) {

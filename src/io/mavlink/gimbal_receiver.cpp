@@ -13,7 +13,8 @@ std::optional<GimbalSample> GimbalReceiver::take(std::uint8_t component, const G
     ++counts.other_gimbals;
     return std::nullopt;
   }
-  const auto time = time_of(component, message, received_at, clock);
+  const auto stamp = message.has_time ? std::optional(message.sample.time) : std::nullopt;
+  const auto time = clock_.to_vehicle(component, stamp, received_at, clock);
   if (!time) {
     ++counts.suspect_stamps;
     return std::nullopt;
@@ -26,16 +27,6 @@ std::optional<GimbalSample> GimbalReceiver::take(std::uint8_t component, const G
   GimbalSample sample = message.sample;
   sample.time = *time;
   return sample;
-}
-
-/// nullopt where the time cannot be. A component of its own has a boot clock of its own.
-std::optional<VehicleTime> GimbalReceiver::time_of(std::uint8_t component, const GimbalMessage& message,
-                                                   HostTime received_at, const VehicleClock& clock) {
-  if (!message.has_time) return clock.map.to_vehicle(received_at);
-  const VehicleTime stamp = message.sample.time;
-  if (component != kAutopilotComponent) return clock_.to_vehicle(stamp, received_at, clock.map);
-  if (!clock.boot.is_near_newest(stamp) || clock.map.is_early(stamp, received_at)) return std::nullopt;
-  return stamp;
 }
 
 void GimbalReceiver::restart() {

@@ -51,15 +51,13 @@ class CameraReceiver {
  private:
   bool is_it(std::uint8_t number) const;
   bool has_changed(const FieldOfViewSample& sample);
-  std::optional<VehicleTime> time_of(std::uint8_t component, VehicleTime stamp, HostTime received_at,
-                                     const VehicleClock& clock);
 
   int number_;  // the only camera that may be it; 0: any
   double rate_hz_;
   std::optional<std::uint8_t> camera_;
   std::optional<std::uint8_t> asked_;  // component
   StreamRequests requests_;
-  ComponentClock clock_;  // of a camera that is a component of its own
+  ComponentClock clock_;
   std::optional<double> first_angle_rad_;
   bool has_changed_ = false;
   std::optional<HostTime> last_;

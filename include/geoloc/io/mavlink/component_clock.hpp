@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "geoloc/io/mavlink/clock_mapping.hpp"
@@ -15,13 +16,18 @@ struct VehicleClock {
   const BootClockMonitor& boot;
 };
 
-/// The boot clock of a component beside the autopilot, which is known by the arrival of its messages.
+/// When messages of a vehicle's component were made, on the vehicle's clock. The autopilot has that clock;
+/// any other component has a boot clock of its own, which is known by the arrival of its messages.
 class ComponentClock {
  public:
-  /// On the vehicle's clock; nullopt where it cannot be told.
-  std::optional<VehicleTime> to_vehicle(VehicleTime stamp, HostTime received_at, const VehicleClockMap& map);
+  /// `stamp`: on the component's clock; nullopt where the message has none, so that its arrival counts.
+  /// nullopt where the time cannot be.
+  std::optional<VehicleTime> to_vehicle(std::uint8_t component, std::optional<VehicleTime> stamp,
+                                        HostTime received_at, const VehicleClock& clock);
 
  private:
+  std::optional<VehicleTime> by_arrival(VehicleTime stamp, HostTime received_at, const VehicleClockMap& map);
+
   ArrivalOffset offset_;  // against the host's clock
   BootClockMonitor boot_clock_;
 };

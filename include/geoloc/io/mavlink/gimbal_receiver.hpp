@@ -34,11 +34,8 @@ class GimbalReceiver {
   void report(HostTime now, LinkStatus& status) const;
 
  private:
-  std::optional<VehicleTime> time_of(std::uint8_t component, const GimbalMessage& message,
-                                     HostTime received_at, const VehicleClock& clock);
-
   GimbalChoice choice_;
-  ComponentClock clock_;  // of a gimbal that is a component of its own
+  ComponentClock clock_;
   std::optional<HostTime> last_;
   RateMeter meter_;
   std::uint32_t failure_flags_ = 0;
