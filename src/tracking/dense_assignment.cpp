@@ -107,8 +107,8 @@ DenseAssignment::TwoLeast DenseAssignment::two_least(std::size_t i) {
   return of_columns;
 }
 
-/// A free column that costs the row so much after prices, if there is one. Of the row that two_least() saw
-/// last.
+/// A free column that costs the row so much after prices, if there is one. The row is the one that
+/// two_least() saw last.
 std::optional<int> DenseAssignment::free_column_at(std::size_t i, double least) {
   for (std::size_t b = 0; b < blocks_; ++b) {
     if (block_minimum_[b] != least) continue;
@@ -146,9 +146,9 @@ void DenseAssignment::reduce_rows() {
   free_rows_.resize(kept);
 }
 
-/// A column of that distance, whose block's least distance it is.
-int DenseAssignment::column_at(double distance, const std::vector<double>& least_of_block,
-                               bool must_be_free) const {
+/// A column, or a free one, of that distance, which is the least of its block.
+int DenseAssignment::column_at(double distance, bool must_be_free) const {
+  const std::vector<double>& least_of_block = must_be_free ? free_block_minimum_ : block_minimum_;
   const auto block = std::find(least_of_block.begin(), least_of_block.end(), distance);
   std::size_t j = kMinimaBlock * static_cast<std::size_t>(block - least_of_block.begin());
   while (distance_[j] != distance || (must_be_free && taken_[j] > 0.0)) ++j;
@@ -170,10 +170,10 @@ void DenseAssignment::augment(int free_row) {
           open_price_.data(), taken_.data(), offset, from, blocks_);
     distance = *std::min_element(block_minimum_.begin(), block_minimum_.end());
     if (*std::min_element(free_block_minimum_.begin(), free_block_minimum_.end()) <= distance) {
-      nearest = column_at(distance, free_block_minimum_, true);
+      nearest = column_at(distance, true);
       break;
     }
-    nearest = column_at(distance, block_minimum_, false);
+    nearest = column_at(distance, false);
     reached_.push_back(nearest);
     reached_at_.push_back(distance);
     distance_[nearest] = kInfinity;

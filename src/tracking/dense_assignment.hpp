@@ -31,7 +31,7 @@ class DenseAssignment {
   TwoLeast two_least(std::size_t row);
   std::optional<int> free_column_at(std::size_t row, double least);
   void augment(int free_row);
-  int column_at(double distance, const std::vector<double>& least_of_block, bool must_be_free) const;
+  int column_at(double distance, bool must_be_free) const;
   void give(int column, int row);
 
   std::size_t rows_ = 0, columns_ = 0, blocks_ = 0, stride_ = 0;
