@@ -11,7 +11,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kWait = 10ms;
 constexpr int kMostDatagrams = 256;  // a turn: a flood must not starve the frames
-/// Of a stream that carries telemetry, every frame does.
+/// Every frame of a stream with telemetry carries it; this many without any show that there is none.
 constexpr std::uint64_t kTellingFrames = 10;
 
 }  // namespace

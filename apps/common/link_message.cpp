@@ -58,8 +58,7 @@ std::string fault(const io::LinkStatus& link, const Geolocator& geolocator) {
 std::string on_zoom(const io::LinkStatus& link) {
   if (link.zooms_untold)
     return "; the camera zooms (CAMERA_SETTINGS) and does not tell its field of view (CAMERA_FOV_STATUS): "
-           "its "
-           "focal length is taken to be the calibration's, which is wrong while it zooms";
+           "its focal length is taken to be the calibration's, which is wrong while it zooms";
   if (!link.has_zoom_changed) return {};
   if (is_silent(link.since_field_of_view))
     return "; its camera does not tell its field of view any more: the last one is taken to hold";

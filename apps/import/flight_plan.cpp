@@ -60,7 +60,7 @@ auto most_common(const std::vector<NamedStill>& stills, const KeyOf& key_of) {
       ->first;
 }
 
-/// Of the first picture that was taken with the focal length that most have; nullopt where none tells one.
+/// The lens of the first picture with the focal length that most pictures have; nullopt where none tells one.
 std::optional<io::Lens> most_common_lens(const std::vector<NamedStill>& stills) {
   const auto tells_lens = [](const NamedStill& named) { return named.still.lens.has_value(); };
   if (std::none_of(stills.begin(), stills.end(), tells_lens)) return std::nullopt;

@@ -28,6 +28,7 @@ class NewsCollector {
     }
   }
 
+  /// A later kind is nearer to the exposure: the last kind that tells of any counts.
   LogTimes finished() {
     for (const Pictures& pictures : pictures_) {
       if (!pictures.at.empty()) times_.exposures = pictures.at;
@@ -41,7 +42,7 @@ class NewsCollector {
     std::optional<std::int32_t> last;
   };
 
-  /// Of the kinds that tell of the same pictures the last one counts; a message may be sent again.
+  /// A message that is sent again counts once.
   void add_picture(const io::CameraNews& news, HostTime at) {
     Pictures& pictures = pictures_[static_cast<std::size_t>(news.kind)];
     if (pictures.last != news.picture) pictures.at.push_back(at - begin_);

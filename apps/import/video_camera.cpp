@@ -13,9 +13,10 @@
 namespace geoloc::apps {
 namespace {
 
-/// Of the equivalent for film of 35 mm: videos are cut from the sensor, and not all from its whole width.
+/// 1-sigma of a focal length by the equivalent for film of 35 mm: videos are cut from the sensor, and not all
+/// from its whole width.
 constexpr double kFilmSigma_percent = 5.0;
-/// Of a nominal field of view, as data sheets have it.
+/// The same by a nominal field of view, as data sheets have it.
 constexpr double kViewSigma_percent = 3.0;
 
 /// As of a picture that tells no more.
@@ -70,8 +71,7 @@ VideoCamera video_camera(const std::string& camera_file, const VideoFacts& video
   if (!lens)
     throw std::runtime_error(
         "the camera's focal length is not known: give its calibration with --camera (a file with width, "
-        "height "
-        "and horizontal_fov_deg will do: docs/formats.md, camera.json)");
+        "height and horizontal_fov_deg will do: docs/formats.md, camera.json)");
   assumptions.push_back(
       fmt::format("the focal length is the log's equivalent for film of 35 mm, {:.0f} px to {:g} % where the "
                   "whole width of the sensor is used, an unknown of the calibration (--camera gives a better "

@@ -37,7 +37,7 @@ class ZoomHistory {
   /// Forgets when they were; the last one goes on.
   void restart();
 
-  /// Of samples taken in.
+  /// The number of samples taken in.
   std::uint64_t count() const { return samples_.counters().inserted; }
 
  private:

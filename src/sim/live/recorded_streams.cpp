@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::uint8_t kAutopilot = 1;  // MAV_COMP_ID_AUTOPILOT1
 
-/// Of the vehicle's other components, nothing but how far its camera has zoomed in.
+/// The autopilot's messages are played, and how far a camera of its own component has zoomed in.
 bool is_played(const FrameView& frame) {
   const std::uint32_t message_id = frame.message_id;
   if (frame.component_id != kAutopilot)

@@ -18,7 +18,7 @@ class CameraTelemetry {
   /// Flight and clock must outlive it.
   CameraTelemetry(const Flight& flight, const FlightClock& clock, const CameraIntrinsics& camera);
 
-  /// Of the frame that is stamped so.
+  /// The telemetry of the frame that is stamped so.
   io::VideoTelemetry at(HostTime stamp) const;
 
  private:
