@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "calibration/settled_sums.hpp"
 #include "geoloc/geometry/angles.hpp"
 
 namespace geoloc {
@@ -180,13 +181,15 @@ void ArrowheadSolver::eliminate(const PointMatrix& A, const Point& b) {
 std::optional<ArrowheadSolver::Solution> ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks,
                                                                 const FlightPrior& prior,
                                                                 const DriftTimeline& drift,
-                                                                const HeightLog& heights) {
+                                                                const HeightLog& heights,
+                                                                const SettledSums* settled) {
   const HeadLayout layout = layout_of(drift);
   information_.reset(layout.size());
   right_hand_side_.head(layout.size()).setZero();
   add_prior(this->prior(prior), drift, layout);
   add_prior_of_sway(drift.sway(), layout);
   add_heights(heights, layout);
+  if (settled != nullptr) settled->add_to(information_, right_hand_side_, layout);
   for (const Landmark* landmark : landmarks) add_landmark(*landmark, layout);
   if (!information_.factorize()) return std::nullopt;
   information_.solve(right_hand_side_.head(layout.size()));

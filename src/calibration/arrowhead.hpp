@@ -13,6 +13,8 @@
 
 namespace geoloc {
 
+class SettledSums;
+
 /// Where the unknowns of the head stand: the spells of the sway, the nodes of the drift from the oldest on,
 /// the calibration. What objects tie together lies near the diagonal then, but for the calibration's rows,
 /// which come last and fill nothing; the spells concern the objects in view alone.
@@ -90,10 +92,12 @@ class ArrowheadSolver {
   ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift);
 
   /// Solves for the head with the objects' sums. nullopt where rounding has left no solution.
-  /// `heights`: what is known of the camera's height besides.
+  /// `heights`: what is known of the camera's height besides. `settled`: what objects tell that are not among
+  /// the landmarks; nullptr: there are none.
   [[nodiscard]] std::optional<Solution> solve(const std::vector<const Landmark*>& landmarks,
                                               const FlightPrior& prior, const DriftTimeline& drift,
-                                              const HeightLog& heights = HeightLog());
+                                              const HeightLog& heights = HeightLog(),
+                                              const SettledSums* settled = nullptr);
 
   /// The calibration before anything was seen.
   Calibration prior(const FlightPrior& prior) const;

@@ -50,6 +50,7 @@ NodeSpan DriftTimeline::newest_span(VehicleTime time) {
 void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool continues) {
   DriftNode next;
   next.time = time;
+  next.serial = history_.append();
   const double sigma_yaw = config_.sigma_yaw_deg * kRadPerDeg;
   const NodeVector sigma(sigma_position_m, sigma_position_m, config_.sigma_up_m, sigma_yaw);
   if (continues) {
@@ -63,6 +64,16 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
   next.information = (sigma.array().square() * (1.0 - next.transition.array().square())).inverse();
   nodes_[slot(end_)] = next;
   ++end_;
+}
+
+/// Serial numbers rise with the nodes' numbers.
+std::uint32_t DriftTimeline::number_of(std::uint32_t serial) const {
+  std::uint32_t first = begin_, last = end_;
+  while (last - first > 1) {
+    const std::uint32_t middle = first + (last - first) / 2;
+    (node(middle).serial <= serial ? first : last) = middle;
+  }
+  return first;
 }
 
 /// The one whose neighbours are nearest to each other for their age, so that the nodes' distance grows with
@@ -88,6 +99,10 @@ std::optional<ThinnedNode> DriftTimeline::next_to_thin() const {
 void DriftTimeline::thin(const ThinnedNode& thinned) {
   const DriftNode& gone = node(thinned.number);
   DriftNode& after = node(thinned.number + 1);
+  const double second = thinned.weight_of_next;
+  history_.replace(gone.serial, {{NodeHistory::Share{node(thinned.number - 1).serial, 1.0 - second},
+                                  NodeHistory::Share{after.serial, second}},
+                                 thinned.deviation});
   const NodeVector variance =
       after.information.cwiseInverse() + after.transition.cwiseAbs2().cwiseQuotient(gone.information);
   after.information = variance.cwiseInverse();
@@ -99,6 +114,7 @@ void DriftTimeline::thin(const ThinnedNode& thinned) {
 
 void DriftTimeline::freeze_oldest() {
   const DriftNode& oldest = node(begin_);
+  history_.replace(oldest.serial, {{}, oldest.mean});
   DriftNode& heir = node(begin_ + 1);
   heir.prior_mean = heir.transition.cwiseProduct(oldest.mean);
   heir.transition.setZero();

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "calibration/node_history.hpp"
 #include "calibration/sway.hpp"
 #include "geoloc/calibration/drift_config.hpp"
 #include "geoloc/geometry/time.hpp"
@@ -30,6 +31,7 @@ struct NodeSpan {
 
 struct DriftNode {
   VehicleTime time;
+  std::uint32_t serial = 0;  ///< how many were made before it in the flight: unlike its number, it stays
   NodeVector mean = NodeVector::Zero();
   /// Prior given the node before: mean = transition .* (its mean), information of the rest. Of the oldest
   /// node kept, prior_mean stands for the node before.
@@ -89,6 +91,15 @@ class DriftTimeline {
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }
 
+  /// A node that may be gone, by those that are left.
+  NodeHistory::Blend resolve(std::uint32_t serial) { return history_.resolve(serial); }
+
+  /// How many nodes were made so far.
+  std::uint32_t nodes_made() const { return history_.size(); }
+
+  /// Of a node that is left.
+  std::uint32_t number_of(std::uint32_t serial) const;
+
   /// Errors that last for a second or so, beside the drift.
   const SwayTimeline& sway() const { return sway_; }
   SwayTimeline& sway() { return sway_; }
@@ -120,6 +131,7 @@ class DriftTimeline {
   DriftConfig config_;
   std::vector<DriftNode> nodes_;  // a ring; its length is a power of two
   SwayTimeline sway_;
+  NodeHistory history_;
   std::uint32_t begin_ = 0;
   std::uint32_t end_ = 0;
   std::uint32_t begin_of_fine_ = 0;

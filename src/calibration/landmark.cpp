@@ -94,6 +94,22 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   terms.g.tail<2>() -= JcWy.head<2>();
 }
 
+void Landmark::restore(const PointMatrix& A, const Point& b, const CalibrationRows& B) {
+  *this = Landmark{};
+  A_ = A;
+  b_ = b;
+  B_ = B;
+}
+
+void Landmark::restore_node(std::uint32_t number, const NodeRows& B, const DriftTimeline& drift) {
+  terms_of(number, drift).B += B;
+}
+
+void Landmark::restore_spell(std::uint32_t number, std::uint32_t node, const SpellRows& B,
+                             const DriftTimeline& drift) {
+  terms_of_spell(number, node, drift).B += B;
+}
+
 void Landmark::add_prior(const PointInformation& prior) {
   A_ += prior.matrix;
   b_ += prior.vector;

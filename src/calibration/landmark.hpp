@@ -72,6 +72,7 @@ class Landmark {
  public:
   using CalibrationRows = Eigen::Matrix<double, kPointSize, CalibrationIndex::kSize>;
   using NodeRows = Eigen::Matrix<double, kPointSize, kNodeSize>;
+  using SpellRows = Eigen::Matrix<double, kPointSize, kSwaySize>;
   /// No fewer than the drift keeps by default (DriftConfig::max_nodes): beyond, the oldest is frozen, and
   /// what the object was off by then is taken for certain.
   static constexpr std::size_t kMaxNodes = 30;
@@ -91,7 +92,7 @@ class Landmark {
   struct SpellTerms {
     std::uint32_t number = 0;
     std::uint32_t node = 0;  ///< of the drift, the one before
-    Eigen::Matrix<double, kPointSize, kSwaySize> B = Eigen::Matrix<double, kPointSize, kSwaySize>::Zero();
+    SpellRows B = SpellRows::Zero();
     Eigen::Matrix<double, CalibrationIndex::kSize, kSwaySize> C_calibration =
         Eigen::Matrix<double, CalibrationIndex::kSize, kSwaySize>::Zero();
     using NodeBlock = Eigen::Matrix<double, kNodeSize, kSwaySize>;
@@ -103,6 +104,13 @@ class Landmark {
   static constexpr std::size_t kMaxSpells = 8;
 
   void add(const LandmarkObservation& observation, const DriftTimeline& drift);
+
+  /// Sums that were told apart from C and g: A, b, B, and B of nodes and spells one by one. A spell lies
+  /// behind `node`.
+  void restore(const PointMatrix& A, const Point& b, const CalibrationRows& B);
+  void restore_node(std::uint32_t number, const NodeRows& B, const DriftTimeline& drift);
+  void restore_spell(std::uint32_t number, std::uint32_t node, const SpellRows& B,
+                     const DriftTimeline& drift);
 
   /// What is known of the object from elsewhere: a surveyed position, the height of the ground.
   void add_prior(const PointInformation& prior);

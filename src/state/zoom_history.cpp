@@ -11,7 +11,7 @@ namespace {
 /// Within a longer one, nobody knows when the zoom changed.
 constexpr Duration kLongestGap = std::chrono::seconds{1};
 /// Zooms that differ by less are the same: fields of view are told in tenths of degrees.
-constexpr double kSameShare = 0.01;
+constexpr double kSameFocalShare = 0.01;
 /// What times of cameras are off by, 1-sigma: they tell how they were set, not how the frame was taken.
 constexpr double kTimeSigma_s = 0.05;
 /// A zoom that begins or ends to run between two samples is off by a third of what it changes there (RMS),
@@ -39,7 +39,7 @@ Expected<ZoomState, NoState> ZoomHistory::at(VehicleTime time) const {
   const auto around = samples_.bracket(time, Duration::max(), Duration::zero());
   if (!around) return ZoomState{around.error() == NoState::kTooOld ? samples_.oldest() : last_, 0.0};
   const double changed_share = change_share(around->before, around->after);
-  if (around->spacing > kLongestGap && changed_share > kSameShare) return NoState::kInAGap;
+  if (around->spacing > kLongestGap && changed_share > kSameFocalShare) return NoState::kInAGap;
   const double spacing_s = seconds(around->spacing);
   const double per_second = spacing_s > 0.0 ? changed_share / spacing_s : 0.0;
   return ZoomState{around->interpolated(), std::hypot(kTimeSigma_s * per_second, kBendShare * changed_share)};

@@ -50,6 +50,7 @@ void ClockWatch::begin_anew() {
   is_proven_ = false;
   held_.clear();
   quiet_until_.reset();
+  told_at_.reset();
   back_off_s_ = kBackOff_s;
 }
 
@@ -85,15 +86,22 @@ void ClockWatch::weigh(const FrameBoxes& frame, const PlaceFit& fit, double beli
   is_proven_ = false;
   const auto tally = fit.tally(frame, believed_s, 0.0, places_);
   if (!tally) return;
+  if (tally->seen + tally->missed > 0) told_at_ = frame.stamp.captured_at_host;
+  if (is_forgotten(frame.stamp.captured_at_host)) doubt_ = 0.0;
   const WatchExpectation& expected = fit.expected();
   const int strange = fit.strange_boxes(frame, believed_s, places_);
-  const double displaced = expected.found * (tally->seen + tally->missed);
+  const double displaced = fit.found_in(frame) * (tally->seen + tally->missed);
   const double usually_strange = kNewPerFrame + expected.strange_per_frame;
   double evidence = strange * std::log1p(displaced / usually_strange) - displaced - tally->likelihood;
   if (strange == 0 || !fit.could_tell_latency(frame, believed_s, places_)) evidence = std::min(evidence, 0.0);
   doubt_ = std::clamp(doubt_ + evidence, 0.0, kMostDoubt);
   is_proven_ = !is_holding_ && !is_in_doubt() && tally->seen > 0 && tally->seen >= tally->missed &&
                fit.tells_latency(frame, believed_s, places_);
+}
+
+/// None of the places that were known when the doubt began is to be seen any more: it would last for ever.
+bool ClockWatch::is_forgotten(HostTime now) const {
+  return !is_holding_ && told_at_ && seconds(now - *told_at_) > kLongestHold_s;
 }
 
 bool ClockWatch::is_backing_off(HostTime now) {

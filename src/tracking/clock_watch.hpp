@@ -46,6 +46,7 @@ class ClockWatch {
   using Score = LatencyScores::Score;
 
   void weigh(const FrameBoxes& frame, const PlaceFit& fit, double believed_s);
+  bool is_forgotten(HostTime now) const;
   bool is_backing_off(HostTime now);
   void hold(const FrameBoxes& frame);
   void score_held(const PlaceFit& fit);
@@ -70,6 +71,7 @@ class ClockWatch {
   std::vector<FrameBoxes> held_;
   LatencyScores scores_;
   std::optional<HostTime> quiet_until_;
+  std::optional<HostTime> told_at_;  // the last frame that should show one of the places
   double back_off_s_;
   std::array<double, kMostShifts> east_m_{}, north_m_{};  // scratch of likely_shift
 };

@@ -22,11 +22,14 @@ struct FrameBoxes {
   FrameStamp stamp;
   std::array<Eigen::Vector2d, kMost> pixels;
   std::size_t count = 0;
+  double share = 1.0;  ///< of the frame's boxes
 
   FrameBoxes() = default;
   FrameBoxes(FrameStamp frame_stamp, const std::vector<LocatedDetection>& detections,
              std::size_t most = kMost)
       : stamp(frame_stamp), count(std::min(detections.size(), most)) {
+    if (count < detections.size())
+      share = static_cast<double>(count) / static_cast<double>(detections.size());
     for (std::size_t i = 0; i < count; ++i) pixels[i] = detections[i].detection.box.centre();
   }
 };

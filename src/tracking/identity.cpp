@@ -37,12 +37,15 @@ bool is_drawn_aside(const RestingObject& object, const RestingObject& younger) {
 }
 
 void split_if_mixed(RestingObject& object, const RestingObject& younger, const Look& look,
-                    const JointAssociation::Match& match, const SharedErrorEstimate& errors) {
+                    const JointAssociation::Match& match, const SharedErrorEstimate& errors,
+                    SettledSums& settled) {
   if (!match.track || object.is_known) return;
   ++object.mixture.looks;
   object.mixture.sum_of_innovations += match.innovation;
   object.mixture.sum_of_noise += look.pixel_noise.trace();
-  if (is_drawn_aside(object, younger)) begin_sums(object, look, errors);
+  if (!is_drawn_aside(object, younger)) return;
+  leave_settled(object, settled);
+  begin_sums(object, look, errors);
 }
 
 }  // namespace
@@ -74,7 +77,8 @@ bool may_be_one(const RestingObject& a, const RestingObject& b, const ArrowheadS
 }
 
 void tell_neighbours_apart(const std::vector<Look>& looks, const Explanation& explanation,
-                           const SharedErrorEstimate& errors, double merge_radius_m, TrackTable& tracks) {
+                           const SharedErrorEstimate& errors, double merge_radius_m, TrackTable& tracks,
+                           SettledSums& settled) {
   const double reach_m = 2.0 * merge_radius_m;
   for (RestingObject& seen : tracks) {
     if (!seen.is_seen) continue;
@@ -83,7 +87,8 @@ void tell_neighbours_apart(const std::vector<Look>& looks, const Explanation& ex
       if (other.is_seen) {
         seen.neighbours.seen_apart(other.track.id);
         if (seen.track.id < other.track.id)
-          split_if_mixed(seen, other, looks[*seen.look], explanation.match_of_look[*seen.look], errors);
+          split_if_mixed(seen, other, looks[*seen.look], explanation.match_of_look[*seen.look], errors,
+                         settled);
       } else if (other.detection_probability > 0.0) {
         seen.neighbours.seen_as_one(other.track.id);
         other.neighbours.seen_as_one(seen.track.id);

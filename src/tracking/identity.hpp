@@ -2,6 +2,7 @@
 #pragma once
 
 #include "calibration/arrowhead.hpp"
+#include "calibration/settled_sums.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/look_matcher.hpp"
@@ -28,6 +29,7 @@ bool may_be_one(const RestingObject& a, const RestingObject& b, const ArrowheadS
 /// is seen beside the younger one its looks are drawn to one side; then it begins anew from the present one,
 /// since the sums do not tell which look showed which.
 void tell_neighbours_apart(const std::vector<Look>& looks, const Explanation& explanation,
-                           const SharedErrorEstimate& errors, double merge_radius_m, TrackTable& tracks);
+                           const SharedErrorEstimate& errors, double merge_radius_m, TrackTable& tracks,
+                           SettledSums& settled);
 
 }  // namespace geoloc

@@ -14,6 +14,7 @@
 #include "tracking/known_places.hpp"
 #include "tracking/misses.hpp"
 #include "tracking/range_aid.hpp"
+#include "tracking/sleep_cycle.hpp"
 
 namespace geoloc {
 namespace {
@@ -26,10 +27,18 @@ constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
 constexpr double kLeastAccuracy_m = 0.02, kMostAccuracy_m = 100.0;
 /// A known point that is nearer to the image's edge is not covered; share of the image's height.
 constexpr double kCoverMargin = 0.1;
+/// Sleeping objects that are brought up to date with each frame.
+constexpr std::size_t kSleepersPerFrame = 16;
+/// Covariances that are brought up to date with each solution, but for those of objects in view.
+constexpr std::size_t kCovariancesPerSolution = 64;
 
 JointTrackerConfig checked(const JointTrackerConfig& config) {
   throw_if_any(config.problems());
   return config;
+}
+
+int most_awake(const JointTrackerConfig& config) {
+  return std::min(config.max_tracks, kMostAwake);
 }
 
 PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
@@ -54,12 +63,22 @@ void follow_ground(const GroundModel& ground, TrackTable& tracks) {
     set_ground(track, ground_prior(ground, track.position_in_enu.head<2>(), 0.0));
 }
 
-void update_covariances(const ArrowheadSolver::Solution& solution, TrackTable& tracks) {
-  for (RestingObject& track : tracks) {
+/// Of those in view, and of others as far as `budget` goes. Returns what is left of it.
+std::size_t update_covariances(const ArrowheadSolver::Solution& solution, VehicleTime now, std::size_t budget,
+                               TrackTable& tracks) {
+  const auto update = [&](RestingObject& track) {
     const PointMatrix covariance = solution.covariance(*track.landmark);
     track.track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
     track.sigma_height_m = std::sqrt(covariance(2, 2));
+    if (budget > 0) --budget;
+  };
+  for (RestingObject& track : tracks) {
+    if (track.last_near == now) update(track);
   }
+  for (RestingObject& track : tracks) {
+    if (budget > 0 && track.last_near != now) update(track);
+  }
+  return budget;
 }
 
 /// What an object's position is off by besides what all of them are, per axis: half of what it differs from
@@ -82,19 +101,22 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
               NoiseEstimate(config.sigma_attitude_deg * kRadPerDeg), config.drift, solver_),
       heights_(config.drift.max_nodes),
       noise_clock_(config.fast_time_constant_s, config.attitude_time_constant_s),
-      clock_watch_(config.max_tracks),
+      clock_watch_(most_awake(config)),
       waiting_(max_detections),
       schedule_(config.solve_period_s),
       look_maker_(config_, max_detections),
       look_matcher_(config_, max_detections),
       detection_rate_(config.detection_probability),
       clutter_rate_(config.clutter_per_frame),
-      known_points_(std::move(known_points), config.max_tracks),
-      tracks_(config.max_tracks),
+      known_points_(std::move(known_points), most_awake(config)),
+      tracks_(most_awake(config)),
       recent_looks_(max_detections),
-      moving_(config_, max_detections) {
-  published_.reserve((config.moving.classes.empty() ? 1 : 2) * config.max_tracks);
-  known_candidates_.reserve(config.max_tracks);
+      moving_(config_, max_detections),
+      sleeping_(config.drift),
+      published_(config.max_tracks) {
+  if (!config.moving.classes.empty()) published_with_moving_.reserve(config.max_tracks + most_awake(config));
+  known_candidates_.reserve(most_awake(config));
+  sleeping_.reserve(TrackTable::kRowsAtFirst);
 }
 
 std::optional<Calibration> JointTracker::calibration_of_camera() const {
@@ -117,14 +139,14 @@ void JointTracker::update(const LocatedFrame& located) {
     watch_start(located);
     proven_at_ = located.view.vehicle.time;
   }
-  publish(located.projector);
+  publish(located.projector, kSleepersPerFrame);
 }
 
 /// No other latency was found that explains the frames in doubt better.
 void JointTracker::finish(const LocatedFrame& last) {
   waiting_.release();
   while (waiting_.due() > 0) process_next(last);
-  publish(last.projector);
+  publish(last.projector, sleeping_.size());
 }
 
 /// Frames wait while the clock is in doubt, and are made up for a few at a time.
@@ -147,6 +169,7 @@ void JointTracker::process_next(const LocatedFrame& newest) {
 
 void JointTracker::process(const LocatedFrame& located) {
   const JointFrame frame = begin_frame(located);
+  wake_near(located, frame);
   if (!is_turned(located, frame)) return learn(located, frame);
   ++book_.counters.frames_turned;
   learn(*located.turned, frame.seen_from(located.turned->view));
@@ -191,7 +214,8 @@ void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   cover_known_points(located, shift);
   absorb_matched(looks, explanation, frame);
   begin_tentative(looks.at_rest, explanation, located.ground, frame);
-  tell_neighbours_apart(looks.at_rest, explanation, errors_, config_.merge_radius_m, tracks_);
+  tell_neighbours_apart(looks.at_rest, explanation, errors_, config_.merge_radius_m, tracks_,
+                        sleeping_.settled());
   remove_improbable();
   moving_.update(looks.moving,
                  {frame, shift, errors_.calibration.covariance.block<2, 2>(Index::kOffset, Index::kOffset),
@@ -250,6 +274,9 @@ void JointTracker::watch_clock(const LocatedFrame& located) {
 void JointTracker::begin_anew(const LatencyPrior& latency) {
   ++book_.counters.latency_changes;
   while (tracks_.size() > 0) remove(tracks_.size() - 1);
+  book_.counters.removed += sleeping_.size();
+  sleeping_.clear();
+  published_.clear();
   opening_looks_.restart();
   recent_looks_.clear();
   errors_.drift.clear();
@@ -268,10 +295,16 @@ void JointTracker::go_on_with_latency(const LatencyPrior& latency, const Located
   for (std::size_t row = tracks_.size(); row-- > 0;) {
     if (tracks_[row].sums_since > proven_at_) remove(row);
   }
+  sleeping_.forget_since(proven_at_, [this](std::uint64_t id) {
+    published_.remove(id);
+    ++book_.counters.removed;
+  });
   recent_looks_.take_out(proven_at_ + Duration{1}, errors_.drift, tracks_);
-  if (const auto before = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_))
+  if (const auto before =
+          solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_, &sleeping_.settled()))
     errors_.take(*before);
   for (RestingObject& track : tracks_) track.landmark->freeze_latency(errors_.calibration.latency_s());
+  sleeping_.freeze_latency(errors_.calibration.latency_s());
   errors_.begin_latency(latency);
   bound_height(frame.projector, frame.view);
   const NodeSpan newest{errors_.drift.end() - 2, 0.0};
@@ -304,7 +337,8 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   tracks_.clear_evidence();
   DriftTimeline& drift = errors_.drift;
   const NodeSpan span = cover(vehicle);
-  if (bound_head(config_.drift, errors_.drift, heights_, tracks_)) opening_looks_.close();
+  if (bound_head(config_.drift, errors_.drift, heights_, tracks_, sleeping_.settled()))
+    opening_looks_.close();
   measure_height(located, span);
   return {located.projector,
           located.view,
@@ -382,11 +416,12 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
   const double share = ground.is_level() ? config_.sigma_ground_share : 0.0;
   for (std::size_t i = 0; i < looks.size(); ++i) {
     if (explanation.match_of_look[i].track) continue;
-    if (tracks_.is_full()) {
+    if (is_full()) {
       ++book_.counters.refused;
       continue;
     }
     RestingObject& track = tracks_.append();
+    sleeping_.reserve(tracks_.size() + sleeping_.size());
     begin_object(track, clutter_rate_.birth_probability(config_.birth_probability),
                  frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
@@ -413,6 +448,8 @@ void JointTracker::remove_improbable() {
 
 void JointTracker::remove(std::size_t row) {
   known_points_.forget(tracks_[row].track.id);
+  published_.remove(tracks_[row].track.id);
+  leave_settled(tracks_[row], sleeping_.settled());
   tracks_.remove(row);
   ++book_.counters.removed;
 }
@@ -423,9 +460,12 @@ void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, 
   if (!solution) return;
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
-  update_covariances(*solution, tracks_);
+  const std::size_t budget = known_points_.is_empty() ? kCovariancesPerSolution : tracks_.size();
+  const std::size_t left = update_covariances(*solution, frame.time(), budget, tracks_);
+  let_sleep(located, *solution, left);
   if (!match_known_points(*solution, noise)) return;
-  if (const auto with_known_points = solve(located, frame)) update_covariances(*with_known_points, tracks_);
+  if (const auto with_known_points = solve(located, frame))
+    update_covariances(*with_known_points, frame.time(), budget, tracks_);
 }
 
 std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame& located,
@@ -434,7 +474,8 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
   if (opening_looks_.is_open())
     opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
   errors_.believe_in_sway(fast_position_variance_m2(config_, errors_), frame.repetition.lasts());
-  const auto solution = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_);
+  const auto solution =
+      solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_, &sleeping_.settled());
   if (solution) {
     errors_.take(*solution);
     bound_height(frame.projector, frame.view);
@@ -475,6 +516,7 @@ void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
   opening_looks_.rename(gone.track.id, kept.track.id);
   recent_looks_.rename(gone.track.id, kept.track.id);
   for (RestingObject& track : tracks_) track.neighbours.rename(gone.track.id, kept.track.id);
+  published_.remove(gone.track.id);
   tracks_.remove(gone_row);
   ++book_.counters.merged;
 }
@@ -508,20 +550,74 @@ bool JointTracker::match_known_points(const Solution& solution, const FrameNoise
   return true;
 }
 
-void JointTracker::publish(const Projector& projector) {
-  const double ground_height_above_home_m =
-      projector.config().ground_height_above_home_m - errors_.calibration.height_m();
-  published_.clear();
+bool JointTracker::is_full() const {
+  return tracks_.is_full() ||
+         tracks_.size() + sleeping_.size() >= static_cast<std::size_t>(config_.max_tracks);
+}
+
+void JointTracker::wake_near(const LocatedFrame& located, const JointFrame& frame) {
+  const double sigma_time_s = clock_watch_.is_in_doubt() ? config_.prior.sigma_latency_s : 0.0;
+  const auto wake = [&](const JointFrame& seen) {
+    const auto area = area_in_view(seen, errors_, config_.sigma_ground_m, sigma_time_s);
+    geoloc::wake_near(area, seen, errors_, published_, sleeping_, tracks_);
+  };
+  wake(frame);
+  if (located.turned != nullptr) wake(frame.seen_from(located.turned->view));
+}
+
+/// Some of those that sleep are brought up to date with each solution, covariances and all. Surveys and the
+/// first looks may still tell of any object.
+void JointTracker::let_sleep(const LocatedFrame& located, const Solution& solution, std::size_t covariances) {
+  if (opening_looks_.is_open() || !known_points_.is_empty()) return;
+  const VehicleTime now = located.view.vehicle.time;
+  const double level_m = level_above_home_m(located.projector);
+  for (std::size_t row = tracks_.size(); row-- > 0;) {
+    RestingObject& object = tracks_[row];
+    if (may_sleep(object, tracks_, now, proven_at_, config_.merge_radius_m)) {
+      published_.set(published_track(object, level_m), object.published_at);
+      sleeping_.put(object, errors_.drift);
+      tracks_.remove(row);
+    } else if (may_be_forgotten(object, tracks_, now)) {
+      remove(row);
+    }
+  }
+  sleeping_.visit_some(covariances, errors_,
+                       [&](std::uint64_t id, const Point& /*position*/, const Landmark& landmark) {
+                         const PointMatrix covariance = solution.covariance(landmark);
+                         std::size_t place = 0;
+                         Track& track = *published_.find(id, place);
+                         track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
+                         track.height->sigma_m = std::sqrt(covariance(2, 2));
+                       });
+}
+
+double JointTracker::level_above_home_m(const Projector& projector) const {
+  return projector.config().ground_height_above_home_m - errors_.calibration.height_m();
+}
+
+/// Those that sleep follow, `sleeping` of them at a time.
+void JointTracker::publish(const Projector& projector, std::size_t sleeping) {
+  const double level_m = level_above_home_m(projector);
+  for (RestingObject& object : tracks_) published_.set(published_track(object, level_m), object.published_at);
+  sleeping_.visit_some(sleeping, errors_, [&](std::uint64_t id, const Point& position, const Landmark&) {
+    std::size_t place = 0;
+    Track& track = *published_.find(id, place);
+    track.position_in_enu.mean = position.head<2>();
+    track.height->above_home_m = position.z() + level_m;
+  });
+  if (!config_.moving.classes.empty()) add_moving();
+}
+
+void JointTracker::add_moving() {
+  published_with_moving_.clear();
   const auto& moving = moving_.objects();
   auto next_moving = moving.begin();
-  for (const RestingObject& object : tracks_) {
-    for (; next_moving != moving.end() && next_moving->track.id < object.track.id; ++next_moving)
-      published_.push_back(next_moving->track);
-    published_.push_back(object.track);
-    published_.back().height =
-        HeightEstimate{object.position_in_enu.z() + ground_height_above_home_m, object.sigma_height_m};
+  for (const Track& track : published_.all()) {
+    for (; next_moving != moving.end() && next_moving->track.id < track.id; ++next_moving)
+      published_with_moving_.push_back(next_moving->track);
+    published_with_moving_.push_back(track);
   }
-  for (; next_moving != moving.end(); ++next_moving) published_.push_back(next_moving->track);
+  for (; next_moving != moving.end(); ++next_moving) published_with_moving_.push_back(next_moving->track);
 }
 
 }  // namespace geoloc

@@ -18,7 +18,9 @@
 #include "tracking/look_matcher.hpp"
 #include "tracking/moving_tracker.hpp"
 #include "tracking/opening_looks.hpp"
+#include "tracking/published_tracks.hpp"
 #include "tracking/recent_looks.hpp"
+#include "tracking/sleeping_objects.hpp"
 #include "tracking/solution_schedule.hpp"
 #include "tracking/track_table.hpp"
 #include "tracking/tracker.hpp"
@@ -38,7 +40,9 @@ class JointTracker final : public Tracker {
   void update(const LocatedFrame& frame) override;
   void finish(const LocatedFrame& last) override;
 
-  const std::vector<Track>& tracks() const override { return published_; }
+  const std::vector<Track>& tracks() const override {
+    return config_.moving.classes.empty() ? published_.all() : published_with_moving_;
+  }
   const TrackCounters& counters() const override { return book_.counters; }
   const Calibration& calibration() const override { return errors_.calibration; }
   double lift_m(double reported_height_above_ground_m) const override {
@@ -80,7 +84,12 @@ class JointTracker final : public Tracker {
   void merge_compatible(const Solution& solution, const JointFrame& frame, const FrameNoise& noise);
   void merge(std::size_t kept, std::size_t gone);
   bool match_known_points(const Solution& solution, const FrameNoise& noise);
-  void publish(const Projector& projector);
+  bool is_full() const;
+  void wake_near(const LocatedFrame& located, const JointFrame& frame);
+  void let_sleep(const LocatedFrame& located, const Solution& solution, std::size_t covariances);
+  double level_above_home_m(const Projector& projector) const;
+  void publish(const Projector& projector, std::size_t sleeping);
+  void add_moving();
 
   const JointTrackerConfig config_;
   ArrowheadSolver solver_;
@@ -104,7 +113,9 @@ class JointTracker final : public Tracker {
   RecentLooks recent_looks_;
   MovingTracker moving_;
   TrackBook book_;
-  std::vector<Track> published_;
+  SleepingObjects sleeping_;
+  PublishedTracks published_;                                   // of the objects at rest
+  std::vector<Track> published_with_moving_;                    // where there are moving classes
   std::vector<KnownPointMatcher::Candidate> known_candidates_;  // scratch of match_known_points
 };
 

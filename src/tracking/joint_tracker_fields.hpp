@@ -89,7 +89,7 @@ void visit_life_cycle_fields(Visitor& v, JointTrackerConfig& joint) {
   v.field("merge_gate", joint.merge_gate, Range::above(0, 1000), "",
           "Squared Mahalanobis distance up to which they are one; 11.3 holds 99 % (chi-square, 3 degrees of "
           "freedom)");
-  v.field("max_tracks", joint.max_tracks, Range::closed(1, 20000), "", "Most objects at a time");
+  v.field("max_tracks", joint.max_tracks, Range::closed(1, 1000000), "", "Most objects at a time");
 }
 
 template <class Visitor>

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <tuple>
 
+#include "tracking/sleep_cycle.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -61,9 +63,9 @@ bool is_older(const RestingObject& object, const RestingObject& other) {
 }  // namespace
 
 LookMatcher::LookMatcher(const JointTrackerConfig& config, int max_detections)
-    : config_(config), association_(max_detections, config.max_tracks) {
+    : config_(config), association_(max_detections, std::min(config.max_tracks, kMostAwake)) {
   explanation_.match_of_look.reserve(max_detections);
-  reach_of_track_.reserve(config.max_tracks);
+  reach_of_track_.reserve(std::min(config.max_tracks, kMostAwake));
   median_scratch_.reserve(max_detections);
 }
 

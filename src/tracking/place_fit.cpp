@@ -83,7 +83,7 @@ PlaceFit::Tally PlaceFit::tally(const FrameBoxes& frame, const FrameView& view, 
       view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
   const double moved_m = 0.5 * step_s * view.vehicle.velocity_in_enu.norm();
   const double blur_px = moved_m * projector.focal_px(view).x() / std::max(1.0, height_m);
-  const double if_missed = std::log(1.0 - expected_.found);
+  const double if_missed = std::log(1.0 - found_in(frame));
   Tally tally;
   std::bitset<FrameBoxes::kMost> taken;
   for (std::size_t i = 0; i < places.count; ++i) {
@@ -122,9 +122,9 @@ double PlaceFit::likelihood_of(const Eigen::Vector2d& shown, double variance_px2
   }
   if (!std::isfinite(nearest_px2)) return nearest_px2 * -1.0;
   const double chance_per_px2 = std::max(1, around) / (kPi * around_px2);
-  const double density_per_px2 = expected_.found / (2.0 * kPi * variance_px2);
+  const double density_per_px2 = found_in(frame) / (2.0 * kPi * variance_px2);
   const double likelihood = std::log(density_per_px2 / chance_per_px2) - 0.5 * nearest_px2 / variance_px2;
-  if (likelihood > std::log(1.0 - expected_.found)) taken.set(nearest);
+  if (likelihood > std::log(1.0 - found_in(frame))) taken.set(nearest);
   return likelihood;
 }
 

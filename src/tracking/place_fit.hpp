@@ -76,6 +76,9 @@ class PlaceFit {
 
   const WatchExpectation& expected() const { return expected_; }
 
+  /// Probability that an object in view has one of these boxes.
+  double found_in(const FrameBoxes& frame) const { return expected_.found * frame.share; }
+
  private:
   template <typename Counts>
   bool any_that_moves(const FrameBoxes& frame, double latency_s, double other_by_s,

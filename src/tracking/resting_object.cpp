@@ -83,6 +83,13 @@ void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstima
   object.sigma_height_m = std::sqrt(covariance(2, 2));
 }
 
+/// Their C is in the total and cannot be taken out, so that the object is eliminated again: without its
+/// elimination it would count as known.
+void leave_settled(RestingObject& object, SettledSums& settled) {
+  if (object.is_settled) settled.settle(*object.landmark);
+  object.is_settled = false;
+}
+
 void set_ground(RestingObject& object, const PointInformation& ground) {
   PointInformation change = ground;
   change += -object.ground;
@@ -102,6 +109,7 @@ void merge_sums(RestingObject& kept, const RestingObject& gone, const DriftTimel
   kept.landmark->merge(*gone.landmark, drift);
   kept.landmark->add_prior(-once_too_often);
   kept.pixel_information += gone.pixel_information - once_too_often.matrix;
+  kept.is_settled = kept.is_settled || gone.is_settled;
   if (!gone.is_known) return;
   kept.prior = gone.prior;
   kept.ground = gone.ground;

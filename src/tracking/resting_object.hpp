@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "calibration/landmark.hpp"
+#include "calibration/settled_sums.hpp"
 #include "calibration/shared_error_estimate.hpp"
 #include "tracking/tracked_object.hpp"
 
@@ -25,6 +26,9 @@ struct RestingObject : TrackedObject {
   Mixture mixture;
   bool is_compared = false;               ///< with the others, since it can be
   bool is_known = false;                  ///< its surveyed place is in the sums
+  bool is_settled = false;                ///< C and g of its earlier looks are in the SettledSums
+  VehicleTime last_near{};                ///< when a frame might have shown it, if only just
+  std::size_t published_at = 0;           ///< its place among the PublishedTracks, as far as is known
   PointInformation prior;                 ///< by the ground, and by a survey; in the sums
   PointInformation ground;                ///< that of the ground alone
   Point position_in_enu = Point::Zero();  ///< up: above the level ground [m]
@@ -61,6 +65,9 @@ void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstima
 
 /// No look is in the sums.
 void clear_sums(RestingObject& object);
+
+/// Its sums are about to be forgotten. What looks told of the head before they were settled stays.
+void leave_settled(RestingObject& object, SettledSums& settled);
 
 /// The ground at the object's place says this, and no longer what it said before.
 void set_ground(RestingObject& object, const PointInformation& ground);

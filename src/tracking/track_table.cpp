@@ -7,45 +7,69 @@ namespace geoloc {
 
 TrackTable::TrackTable(int max_tracks) : max_tracks_(max_tracks) {
   rows_.reserve(max_tracks_);
-  landmarks_.reserve(max_tracks_);
-  free_landmarks_.reserve(max_tracks_);
+  free_entries_.reserve(max_tracks_ + kEntriesAtOnce);
   landmarks_of_rows_.reserve(max_tracks_);
+  while (free_entries_.size() < std::min(max_tracks_, kRowsAtFirst)) add_entries();
+}
+
+void TrackTable::add_entries() {
+  entries_.push_back(std::make_unique<Entry[]>(kEntriesAtOnce));
+  for (std::size_t i = kEntriesAtOnce; i-- > 0;) {
+    Entry& entry = entries_.back()[i];
+    entry.object.landmark = &entry.landmark;
+    free_entries_.push_back(&entry.object);
+  }
 }
 
 const std::vector<const Landmark*>& TrackTable::landmarks() {
   landmarks_of_rows_.clear();
-  for (const RestingObject& row : rows_) landmarks_of_rows_.push_back(row.landmark);
+  for (const RestingObject* row : rows_) landmarks_of_rows_.push_back(row->landmark);
   return landmarks_of_rows_;
 }
 
+std::vector<RestingObject*>::iterator TrackTable::place_of(std::uint64_t track_id) {
+  const auto is_before = [](const RestingObject* row, std::uint64_t id) { return row->track.id < id; };
+  return std::lower_bound(rows_.begin(), rows_.end(), track_id, is_before);
+}
+
 RestingObject* TrackTable::find(std::uint64_t track_id) {
-  const auto is_before = [](const RestingObject& row, std::uint64_t id) { return row.track.id < id; };
-  const auto row = std::lower_bound(rows_.begin(), rows_.end(), track_id, is_before);
-  return row != rows_.end() && row->track.id == track_id ? &*row : nullptr;
+  const auto row = place_of(track_id);
+  return row != rows_.end() && (*row)->track.id == track_id ? *row : nullptr;
+}
+
+RestingObject* TrackTable::take_entry() {
+  if (free_entries_.empty()) add_entries();
+  RestingObject* const taken = free_entries_.back();
+  free_entries_.pop_back();
+  Landmark* const landmark = taken->landmark;
+  *taken = RestingObject{};
+  taken->landmark = landmark;
+  return taken;
 }
 
 RestingObject& TrackTable::append() {
-  RestingObject& row = rows_.emplace_back();
-  if (free_landmarks_.empty()) {
-    row.landmark = &landmarks_.emplace_back();
-  } else {
-    row.landmark = free_landmarks_.back();
-    free_landmarks_.pop_back();
-  }
-  return row;
+  rows_.push_back(take_entry());
+  return *rows_.back();
+}
+
+RestingObject& TrackTable::insert(std::uint64_t track_id) {
+  RestingObject* const row = take_entry();
+  row->track.id = track_id;
+  rows_.insert(place_of(track_id), row);
+  return *row;
 }
 
 void TrackTable::remove(std::size_t row) {
-  free_landmarks_.push_back(rows_[row].landmark);
+  free_entries_.push_back(rows_[row]);
   rows_.erase(rows_.begin() + static_cast<std::ptrdiff_t>(row));
 }
 
 void TrackTable::clear_evidence() {
-  for (RestingObject& row : rows_) {
-    row.is_seen = false;
-    row.look.reset();
-    row.is_in_doubt = false;
-    row.detection_probability = 0.0;
+  for (RestingObject* row : rows_) {
+    row->is_seen = false;
+    row->look.reset();
+    row->is_in_doubt = false;
+    row->detection_probability = 0.0;
   }
 }
 

@@ -15,7 +15,7 @@
 namespace geoloc {
 namespace {
 
-/// What a Geolocator holds [MB], all of it from construction on. Eigen's matrices are not made by operator
+/// What a Geolocator holds from construction on [MB]. Eigen's matrices are not made by operator
 /// new, so that only the heap itself can tell.
 double heap_mb(Method method, int max_tracks, int max_detections) {
   GeolocatorConfig config;
@@ -38,13 +38,14 @@ class Memory : public ::testing::Test {
   }
 };
 
+/// Of the joint method's objects only what few have in use is taken at once.
 TEST_F(Memory, FollowsTheMostTracksAndDetections) {
-  const double few = heap_mb(Method::kJoint, 10, 32);
-  const double per_track = (heap_mb(Method::kJoint, 1010, 32) - few) / 1000.0;
-  EXPECT_LT(per_track, 0.035);
-  EXPECT_GT(per_track, 0.02);
-  EXPECT_NEAR(heap_mb(Method::kJoint, 210, 32), few + 200.0 * per_track, 0.5);
-  EXPECT_LT(few, 3.0);
+  const double few = heap_mb(Method::kJoint, 100, 32);
+  const double per_track = (heap_mb(Method::kJoint, 10'100, 32) - few) / 10'000.0;
+  EXPECT_LT(per_track, 0.0025);
+  EXPECT_GT(per_track, 0.0005);
+  EXPECT_NEAR(heap_mb(Method::kJoint, 2100, 32), few + 2000.0 * per_track, 0.5);
+  EXPECT_LT(few, 5.0);
 }
 
 TEST_F(Memory, IsAsTheDocumentationSays) {

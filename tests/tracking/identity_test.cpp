@@ -40,6 +40,7 @@ class TwoTracks : public ::testing::Test {
   SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{10};
+  SettledSums settled_{DriftConfig{}};
   FrameNoise noise_{0.09 * Eigen::Matrix2d::Identity(), 5.0, 1.0};
 };
 
@@ -150,7 +151,7 @@ class Neighbourhood : public TwoTracks {
     explanation_.match_of_look.push_back(match);
   }
 
-  void tell() { tell_neighbours_apart(looks_, explanation_, errors_, kRadius_m, tracks_); }
+  void tell() { tell_neighbours_apart(looks_, explanation_, errors_, kRadius_m, tracks_, settled_); }
 
   void begin_frame() {
     looks_.clear();
@@ -198,7 +199,7 @@ TEST_F(Neighbourhood, IsDoubtedWhereOneOfTwoThatShouldBeSeenIsNot) {
     Explanation explanation;
     explanation.match_of_look.push_back(match);
     for (int frame = 0; frame < 3; ++frame)
-      tell_neighbours_apart(looks, explanation, errors_, kRadius_m, tracks);
+      tell_neighbours_apart(looks, explanation, errors_, kRadius_m, tracks, settled_);
     EXPECT_EQ(tracks[0].neighbours.are_apart(2), probability == 0.0);
     EXPECT_EQ(tracks[1].neighbours.are_apart(1), probability == 0.0);
   }
