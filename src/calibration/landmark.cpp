@@ -94,8 +94,18 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   terms.g.tail<2>() -= JcWy.head<2>();
 }
 
+void Landmark::clear() {
+  C_.setZero();
+  g_.setZero();
+  A_.setZero();
+  b_.setZero();
+  B_.setZero();
+  nodes_.clear();
+  spells_.clear();
+}
+
 void Landmark::restore(const PointMatrix& A, const Point& b, const CalibrationRows& B) {
-  *this = Landmark{};
+  clear();
   A_ = A;
   b_ = b;
   B_ = B;

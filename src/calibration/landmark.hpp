@@ -112,6 +112,9 @@ class Landmark {
   void restore_spell(std::uint32_t number, std::uint32_t node, const SpellRows& B,
                      const DriftTimeline& drift);
 
+  /// Nothing is known. As Landmark{}, without writing where nothing will be read.
+  void clear();
+
   /// What is known of the object from elsewhere: a surveyed position, the height of the ground.
   void add_prior(const PointInformation& prior);
 

@@ -17,6 +17,7 @@ class NumberedTerms {
   Terms* begin() { return terms_.data(); }
   Terms* end() { return terms_.data() + count_; }
   bool is_empty() const { return count_ == 0; }
+  void clear() { count_ = 0; }
   bool is_full() const { return count_ == kMost; }
 
   /// nullptr: there is none of that number. It is looked for among the last ones first, where those are that

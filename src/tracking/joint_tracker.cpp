@@ -581,14 +581,14 @@ void JointTracker::let_sleep(const LocatedFrame& located, const Solution& soluti
       remove(row);
     }
   }
-  sleeping_.visit_some(covariances, errors_,
-                       [&](std::uint64_t id, const Point& /*position*/, const Landmark& landmark) {
-                         const PointMatrix covariance = solution.covariance(landmark);
-                         std::size_t place = 0;
-                         Track& track = *published_.find(id, place);
-                         track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
-                         track.height->sigma_m = std::sqrt(covariance(2, 2));
-                       });
+  sleeping_.visit_some(
+      covariances, errors_,
+      [&](std::uint64_t id, std::size_t& place, const Point& /*position*/, const Landmark& landmark) {
+        const PointMatrix covariance = solution.covariance(landmark);
+        Track& track = *published_.find(id, place);
+        track.position_in_enu.covariance = covariance.topLeftCorner<2, 2>();
+        track.height->sigma_m = std::sqrt(covariance(2, 2));
+      });
 }
 
 double JointTracker::level_above_home_m(const Projector& projector) const {
@@ -599,12 +599,12 @@ double JointTracker::level_above_home_m(const Projector& projector) const {
 void JointTracker::publish(const Projector& projector, std::size_t sleeping) {
   const double level_m = level_above_home_m(projector);
   for (RestingObject& object : tracks_) published_.set(published_track(object, level_m), object.published_at);
-  sleeping_.visit_some(sleeping, errors_, [&](std::uint64_t id, const Point& position, const Landmark&) {
-    std::size_t place = 0;
-    Track& track = *published_.find(id, place);
-    track.position_in_enu.mean = position.head<2>();
-    track.height->above_home_m = position.z() + level_m;
-  });
+  sleeping_.visit_some(sleeping, errors_,
+                       [&](std::uint64_t id, std::size_t& place, const Point& position, const Landmark&) {
+                         Track& track = *published_.find(id, place);
+                         track.position_in_enu.mean = position.head<2>();
+                         track.height->above_home_m = position.z() + level_m;
+                       });
   if (!config_.moving.classes.empty()) add_moving();
 }
 

@@ -44,7 +44,7 @@ void refresh(RestingObject& object, const SharedErrorEstimate& errors, const Nod
 }
 
 void clear_sums(RestingObject& object) {
-  *object.landmark = Landmark{};
+  object.landmark->clear();
   object.landmark->add_prior(object.prior);
   object.pixel_information = object.prior.matrix;
   object.weighted_position = object.prior.vector;

@@ -45,10 +45,9 @@ void wake_near(const Eigen::AlignedBox2d& area, const JointFrame& frame, SharedE
     if (!area.contains(sleeping.position_of(key))) continue;
     const std::uint64_t id = sleeping.id_of(key);
     RestingObject& object = awake.insert(id);
-    const Track& track = *published.find(id, object.published_at);
-    object.track = track;
-    object.sigma_height_m = track.height->sigma_m;
     sleeping.wake(key, errors.drift, object);
+    object.track = *published.find(id, object.published_at);
+    object.sigma_height_m = object.track.height->sigma_m;
     refresh(object, errors, frame.span);
   }
   for (RestingObject& object : awake) {

@@ -53,6 +53,7 @@ void SleepingObjects::put(const RestingObject& object, const DriftTimeline& drif
   const Key key = sleepers_.take();
   Sleeper& sleeper = sleepers_[key];
   sleeper = {object.track.id,
+             object.published_at,
              object.existence,
              object.neighbours,
              object.last_look,
@@ -105,6 +106,7 @@ void SleepingObjects::wake(Key key, DriftTimeline& drift, RestingObject& object)
   Sleeper& sleeper = sleepers_[key];
   restore(sleeper, drift, *object.landmark);
   settled_.restore(*object.landmark);
+  object.published_at = sleeper.published_at;
   object.existence = sleeper.existence;
   object.neighbours = sleeper.neighbours;
   object.last_look = sleeper.last_look;

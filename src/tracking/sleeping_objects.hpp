@@ -48,14 +48,14 @@ class SleepingObjects {
   void wake(Key key, DriftTimeline& drift, RestingObject& object);
 
   /// Brings some of them up to date, in turn: so many, and as many more as all of them need to be visited
-  /// before the drift forgets its nodes. Calls visit(id, position, landmark) for each, whose landmark has no
-  /// C and no g.
+  /// before the drift forgets its nodes. Calls visit(id, published_at, position, landmark) for each, whose
+  /// landmark has no C and no g.
   template <typename Visit>
   void visit_some(std::size_t least, SharedErrorEstimate& errors, const Visit& visit) {
     for (std::size_t left = due(least, errors.drift.nodes_made()); left > 0; --left) {
       const Key key = next_in_turn();
       const Point position = bring_up_to_date(key, errors);
-      visit(sleepers_[key].id, position, scratch_);
+      visit(sleepers_[key].id, sleepers_[key].published_at, position, scratch_);
     }
   }
 
@@ -87,6 +87,7 @@ class SleepingObjects {
 
   struct Sleeper {
     std::uint64_t id = 0;  // 0: the place is free
+    std::size_t published_at = 0;
     Existence existence{0.5};
     Neighbours neighbours;
     VehicleTime last_look{};

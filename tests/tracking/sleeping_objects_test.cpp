@@ -163,7 +163,8 @@ class SleepingObject : public ::testing::Test {
     errors_.drift = drift_;
     std::size_t visited = 0;
     sleeping_.visit_some(
-        kObjects, errors_, [&](std::uint64_t id, const Point& position, const Landmark& landmark) {
+        kObjects, errors_,
+        [&](std::uint64_t id, std::size_t, const Point& position, const Landmark& landmark) {
           const Landmark& whole = objects_[id - 1].whole;
           const Point expected_position =
               whole.A().inverse() * whole.weighted_position(errors_.calibration.mean, drift_);
