@@ -11,6 +11,7 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+/* NOLINTBEGIN(readability-identifier-naming): names as C has them */
 
 /* What a function answers: 0 or more, it has worked; less than 0, it has not. */
 typedef enum geoloc_status {
@@ -245,6 +246,7 @@ geoloc_status geoloc_to_geodetic(const geoloc_geolocator *geolocator, double eas
 geoloc_status geoloc_to_local(const geoloc_geolocator *geolocator, double latitude_deg, double longitude_deg, double *east_m,
                               double *north_m);
 
+/* NOLINTEND(readability-identifier-naming) */
 #ifdef __cplusplus
 }
 #endif

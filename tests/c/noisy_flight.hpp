@@ -78,7 +78,8 @@ class NoisyFlight {
     frame.time_sigma_s = 0.004;
     for (int i = 0; i < 16; ++i) {
       const int class_id = i % 4;
-      Eigen::Vector3d object(-12.0 + 8.0 * (i % 4), -12.0 + 8.0 * (i / 4), 0.1 * i);
+      const int column = i % 4, row = i / 4;
+      Eigen::Vector3d object(-12.0 + 8.0 * column, -12.0 + 8.0 * row, 0.1 * i);
       if (class_id == 3) object.x() += 0.4 * t;
       const auto pixel = model_.pixel(enu_from_camera(t).inverse() * object);
       if (!pixel || !model_.contains(*pixel, 20.0) || noise(1.0) > 1.6) continue;
