@@ -2,6 +2,7 @@
 # GeographicLib alone, and may be moved with its prefix. The library for C is find_package(geoloc COMPONENTS c), which gives
 # geoloc::geoloc_c, and geoloc_c; they need nothing to be compiled with. Programs, model and flights go beside them.
 include(CMakePackageConfigHelpers)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)  # what is not said to be of lib or programs (GeolocPackages.cmake)
 
 set(_package "${CMAKE_INSTALL_LIBDIR}/cmake/geoloc")
 install(TARGETS geoloc EXPORT geoloc ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -15,7 +16,8 @@ install(EXPORT geoloc NAMESPACE geoloc:: DESTINATION "${_package}" FILE geoloc-t
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/geoloc-config.cmake.in"
   "${PROJECT_BINARY_DIR}/geoloc-config.cmake" INSTALL_DESTINATION "${_package}")
 if(TARGET geoloc_c)
-  install(TARGETS geoloc_c EXPORT geoloc_c LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(TARGETS geoloc_c EXPORT geoloc_c
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT lib NAMELINK_COMPONENT dev)
   install(FILES "${PROJECT_SOURCE_DIR}/include/geoloc/geoloc.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/geoloc")
   install(EXPORT geoloc_c NAMESPACE geoloc:: DESTINATION "${_package}" FILE geoloc-c-targets.cmake)
 endif()
@@ -50,16 +52,16 @@ endforeach()
 
 foreach(_program IN ITEMS geoloc_app geoloc_detect geoloc_eval geoloc_import geoloc_replay geoloc_sim)
   if(TARGET ${_program})
-    install(TARGETS ${_program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+    install(TARGETS ${_program} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT programs)
   endif()
 endforeach()
 if(TARGET geoloc_app)
-  install(FILES "${PROJECT_SOURCE_DIR}/packaging/geoloc.service" DESTINATION lib/systemd/system)
+  install(FILES "${PROJECT_SOURCE_DIR}/packaging/geoloc.service" DESTINATION lib/systemd/system COMPONENT programs)
 endif()
 if(GEOLOC_BUILD_APPS)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/data/models" "${PROJECT_SOURCE_DIR}/data/flights"
-    DESTINATION "${CMAKE_INSTALL_DATADIR}/geoloc")
+    DESTINATION "${CMAKE_INSTALL_DATADIR}/geoloc" COMPONENT programs)
   if(TARGET geoloc_geoid)
-    install(DIRECTORY "${PROJECT_BINARY_DIR}/share/geoloc/geoids" DESTINATION "${CMAKE_INSTALL_DATADIR}/geoloc")
+    install(DIRECTORY "${PROJECT_BINARY_DIR}/share/geoloc/geoids" DESTINATION "${CMAKE_INSTALL_DATADIR}/geoloc" COMPONENT programs)
   endif()
 endif()
