@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import re
+import signal
 import threading
 import time
 import unittest
@@ -59,9 +60,20 @@ class Replays(AppTest):
         self.assertEqual(set(result.fixes["object_id"]), taken)
         self.assertEqual(len(result.trajectory), len(np.unique(result.trajectory["captured_at"])))
 
-    def test_other_threads_go_on_meanwhile(self):
+    def whole_flight(self):
         self.assertEqual(run("geoloc_sim", "--record", self.folder / "whole").status, 0)
-        files = geoloc.Recording.read(self.folder / "whole")._files()
+        return geoloc.Recording.read(self.folder / "whole")._files()
+
+    def test_ctrl_c_ends_it(self):
+        files = self.whole_flight()
+        before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+        self.addCleanup(signal.signal, signal.SIGALRM, before)
+        signal.setitimer(signal.ITIMER_REAL, 0.005)
+        with self.assertRaises(KeyboardInterrupt):
+            geoloc._core.Run(files, "{}")
+
+    def test_other_threads_go_on_meanwhile(self):
+        files = self.whole_flight()
         times, is_done = [], threading.Event()
 
         def count():
