@@ -7,62 +7,23 @@
 #include <nanobind/stl/vector.h>
 
 #include <array>
-#include <chrono>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
+#include "flight_feed.hpp"
 #include "geoloc/geoloc.hpp"
-#include "geoloc/io/config/geolocator_fields.hpp"
-#include "geoloc/io/json/camera_fields.hpp"
 #include "rows.hpp"
+#include "settings.hpp"
 #include "values.hpp"
 
 namespace geoloc::python {
 namespace {
-
-[[noreturn]] void refuse(const std::vector<std::string>& problems) {
-  std::string all = "unusable configuration:";
-  for (const std::string& problem : problems) all += "\n  " + problem;
-  throw std::invalid_argument(all);
-}
-
-GeolocatorConfig config_from(const std::string& settings_json) {
-  GeolocatorConfig config;
-  std::vector<std::string> problems;
-  io::geolocator_from_json(nlohmann::json::parse(settings_json), config, problems);
-  if (!problems.empty()) refuse(problems);
-  return config;
-}
-
-CameraMount mount_from(const std::string& mount_json) {
-  CameraMount mount;
-  std::vector<std::string> problems;
-  io::mount_from_json(nlohmann::json::parse(mount_json), "mount", mount, problems);
-  if (!problems.empty()) refuse(problems);
-  return mount;
-}
-
-void require_rows(std::size_t rows, std::size_t wanted) {
-  if (rows != wanted) throw std::invalid_argument("arrays of different lengths");
-}
-
-std::optional<double> unless_nan(double value) {
-  return std::isnan(value) ? std::nullopt : std::optional<double>(value);
-}
-
-Eigen::Vector3d vector3(const double* values) {
-  return {values[0], values[1], values[2]};
-}
 
 /// The Geolocator behind Python's: calls of several threads come one after the other, without Python's lock.
 class Estimator {
@@ -70,7 +31,7 @@ class Estimator {
   /// Frames that wait no longer: their times on the vehicle's clock [ns], and FrameFate.
   using Outcomes = std::vector<std::pair<std::int64_t, int>>;
 
-  explicit Estimator(const std::string& settings_json) : geolocator_(config_from(settings_json)) {}
+  explicit Estimator(const std::string& settings_json) : feed_(config_from(settings_json)) {}
 
   void add_attitudes(const Integers& times_ns, const Table<3>& angles_rad,
                      const std::optional<Table<3>>& rates_radps) {
@@ -82,7 +43,7 @@ class Estimator {
       const double* angles = angles_rad.data() + 3 * i;
       AttitudeSample sample{time_of(times_ns, i), {angles[0], angles[1], angles[2]}};
       if (rates_radps) sample.rates_in_body_radps = vector3(rates_radps->data() + 3 * i);
-      expect(sample);
+      feed_.expect(sample);
     }
   }
 
@@ -97,7 +58,7 @@ class Estimator {
       PositionSample sample{time_of(times_ns, i), {row[0], row[1]},   row[2],
                             unless_nan(row[3]),   unless_nan(row[4]), std::nullopt};
       if (!std::isnan(row[5])) sample.velocity_in_enu = vector3(row + 5);
-      expect(sample);
+      feed_.expect(sample);
     }
   }
 
@@ -108,10 +69,10 @@ class Estimator {
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < times_ns.size(); ++i) {
       const double* wxyz = level_from_gimbal_wxyz.data() + 4 * i;
-      expect(GimbalSample{time_of(times_ns, i),
-                          {wxyz[0], wxyz[1], wxyz[2], wxyz[3]},
-                          from_north ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose,
-                          holds_direction});
+      feed_.expect(GimbalSample{time_of(times_ns, i),
+                                {wxyz[0], wxyz[1], wxyz[2], wxyz[3]},
+                                from_north ? GimbalYaw::kFromNorth : GimbalYaw::kFromNose,
+                                holds_direction});
     }
   }
 
@@ -120,7 +81,7 @@ class Estimator {
     const nb::gil_scoped_release unlocked;
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < times_ns.size(); ++i)
-      expect(RangeSample{time_of(times_ns, i), distances_m.data()[i]});
+      feed_.expect(RangeSample{time_of(times_ns, i), distances_m.data()[i]});
   }
 
   /// NaN: not told.
@@ -130,7 +91,7 @@ class Estimator {
     const std::lock_guard lock(mutex_);
     for (std::size_t i = 0; i < times_ns.size(); ++i) {
       const double* angles = angles_rad.data() + 2 * i;
-      expect(FieldOfViewSample{time_of(times_ns, i), unless_nan(angles[0]), unless_nan(angles[1])});
+      feed_.expect(FieldOfViewSample{time_of(times_ns, i), unless_nan(angles[0]), unless_nan(angles[1])});
     }
   }
 
@@ -158,69 +119,58 @@ class Estimator {
 
     const nb::gil_scoped_release unlocked;
     const std::lock_guard lock(mutex_);
-    Outcomes outcomes;
-    feed_until(frame.captured_at + kAhead, outcomes);
-    if (const auto gone = geolocator_.add(frame)) note(*gone, outcomes);
-    process_all(FrameWait::kForTelemetry, outcomes);
-    newest_frame_ = frame.captured_at;
-    return outcomes;
+    return told(feed_.process(frame));
   }
 
   /// The frames that wait no longer, as after telemetry has come.
   Outcomes process_waiting() {
     const nb::gil_scoped_release unlocked;
     const std::lock_guard lock(mutex_);
-    Outcomes outcomes;
-    if (newest_frame_) feed_until(*newest_frame_ + kAhead, outcomes);
-    process_all(FrameWait::kForTelemetry, outcomes);
-    return outcomes;
+    return told(feed_.process_waiting());
   }
 
   Outcomes finish() {
     const nb::gil_scoped_release unlocked;
     const std::lock_guard lock(mutex_);
-    Outcomes outcomes;
-    feed_until(VehicleTime::max(), outcomes);
-    process_all(FrameWait::kNoLonger, outcomes);
-    geolocator_.finish();
-    return outcomes;
+    return told(feed_.finish());
   }
 
   Outcomes on_vehicle_reboot() {
     const nb::gil_scoped_release unlocked;
     const std::lock_guard lock(mutex_);
-    Outcomes outcomes;
-    feed_until(VehicleTime::max(), outcomes);
-    geolocator_.on_vehicle_reboot();
-    newest_frame_.reset();
-    return outcomes;
+    return told(feed_.on_vehicle_reboot());
   }
 
   nb::bytes objects(bool confirmed_only) {
     const std::lock_guard lock(mutex_);
     return bytes_of(rows_of<ObjectRow>(
-        geolocator_.tracks(), geolocator_.local_frame(),
+        feed_.geolocator().tracks(), feed_.geolocator().local_frame(),
         [=](const Track& track) { return !confirmed_only || track.status == TrackStatus::kConfirmed; }));
   }
 
   nb::bytes fixes() {
     const std::lock_guard lock(mutex_);
-    return bytes_of(rows_of<FixRow>(geolocator_.located(), geolocator_.local_frame(),
+    return bytes_of(rows_of<FixRow>(feed_.geolocator().located(), feed_.geolocator().local_frame(),
                                     [](const LocatedDetection&) { return true; }));
   }
 
   std::optional<Fields> calibration() {
     const std::lock_guard lock(mutex_);
-    return calibration_of(geolocator_.calibration());
+    return calibration_of(feed_.geolocator().calibration());
   }
 
-  Counts counters();
+  Counts counters() {
+    const std::lock_guard lock(mutex_);
+    Counts counts = counts_of(feed_.geolocator());
+    counts["samples_waiting"] = feed_.samples_waiting();
+    return counts;
+  }
 
   /// None before a frame was located; else the camera's position [m] and w, x, y, z of its rotation.
   std::optional<std::array<double, 7>> camera_pose() {
     const std::lock_guard lock(mutex_);
-    if (geolocator_.counters().frames_located == 0) return std::nullopt;
-    const FrameView& view = geolocator_.view();
+    if (feed_.geolocator().counters().frames_located == 0) return std::nullopt;
+    const FrameView& view = feed_.geolocator().view();
     const Eigen::Vector3d& at = view.enu_from_camera.translation;
     const Eigen::Quaterniond& turn = view.enu_from_camera.rotation;
     return std::array{at.x(), at.y(), at.z() - view.lifted_m, turn.w(), turn.x(), turn.y(), turn.z()};
@@ -229,8 +179,8 @@ class Estimator {
   /// None before the first position.
   std::optional<std::pair<double, double>> origin() {
     const std::lock_guard lock(mutex_);
-    if (!geolocator_.local_frame()) return std::nullopt;
-    const Geodetic& origin = geolocator_.local_frame()->origin();
+    if (!feed_.geolocator().local_frame()) return std::nullopt;
+    const Geodetic& origin = feed_.geolocator().local_frame()->origin();
     return std::make_pair(origin.latitude_deg, origin.longitude_deg);
   }
 
@@ -251,76 +201,23 @@ class Estimator {
     return VehicleTime{Duration{times_ns.data()[i]}};
   }
 
-  static void note(const FrameOutcome& outcome, Outcomes& outcomes) {
-    outcomes.emplace_back(outcome.captured_at.time_since_epoch().count(), static_cast<int>(outcome.fate));
-  }
-
-  using Sample = std::variant<AttitudeSample, PositionSample, GimbalSample, RangeSample, FieldOfViewSample>;
-
-  /// What comes in arrays may be a whole flight of one kind, and the estimator keeps a few seconds.
-  template <typename T>
-  void expect(const T& sample) {
-    expected_.emplace(sample.time, sample);
-  }
-
-  /// Samples in the order of their times, and the frames that waited for them.
-  void feed_until(VehicleTime end, Outcomes& outcomes) {
-    while (!expected_.empty() && expected_.begin()->first <= end) {
-      std::visit([&](const auto& sample) { geolocator_.add(sample); }, expected_.begin()->second);
-      expected_.erase(expected_.begin());
-      process_all(FrameWait::kForTelemetry, outcomes);
-    }
-  }
-
-  void process_all(FrameWait wait, Outcomes& outcomes) {
-    while (const auto processed = geolocator_.process_next(wait)) note(*processed, outcomes);
+  static Outcomes told(const FlightFeed::Outcomes& outcomes) {
+    Outcomes pairs;
+    for (const FrameOutcome& outcome : outcomes)
+      pairs.emplace_back(outcome.captured_at.time_since_epoch().count(), static_cast<int>(outcome.fate));
+    return pairs;
   }
 
   LocalFrame frame() {
     const std::lock_guard lock(mutex_);
-    if (!geolocator_.local_frame()) throw std::invalid_argument("no position of the vehicle has come yet");
-    return *geolocator_.local_frame();
+    if (!feed_.geolocator().local_frame())
+      throw std::invalid_argument("no position of the vehicle has come yet");
+    return *feed_.geolocator().local_frame();
   }
 
-  /// So much telemetry after a frame is fed with it.
-  static constexpr Duration kAhead = std::chrono::seconds{1};
-
   std::mutex mutex_;
-  Geolocator geolocator_;
-  std::multimap<VehicleTime, Sample> expected_;  // in order of their times, not fed yet
-  std::optional<VehicleTime> newest_frame_;
+  FlightFeed feed_;
 };
-
-Counts Estimator::counters() {
-  const std::lock_guard lock(mutex_);
-  const Geolocator::Counters& frames = geolocator_.counters();
-  const StateProvider::Counters state = geolocator_.state().counters();
-  const TrackCounters& tracks = geolocator_.track_counters();
-  Counts counts;
-  counts["frames"] = frames.frames;
-  counts["frames_located"] = frames.frames_located;
-  counts["frames_waiting"] = geolocator_.frames_waiting();
-  counts["samples_waiting"] = expected_.size();
-  counts["detections"] = frames.detections;
-  counts["detections_dropped"] = frames.detections_dropped;
-  counts["detections_at_edge"] = frames.detections_at_edge;
-  counts["attitudes"] = state.attitudes;
-  counts["positions"] = state.positions;
-  counts["gimbals"] = state.gimbals;
-  counts["focal_lengths"] = state.focal_lengths;
-  counts["ranges"] = frames.ranges;
-  counts["duplicates"] = state.duplicates;
-  counts["stale"] = state.stale;
-  counts["invalid"] = state.invalid;
-  counts["out_of_range"] = state.out_of_range;
-  counts["too_far"] = state.too_far;
-  counts["reboots"] = state.reboots;
-  counts["tracks_created"] = tracks.created;
-  counts["tracks_removed"] = tracks.removed;
-  counts["tracks_merged"] = tracks.merged;
-  counts["tracks_refused"] = tracks.refused;
-  return counts;
-}
 
 }  // namespace
 
@@ -348,13 +245,6 @@ void bind_geolocator(nb::module_& module) {
       .def("origin", &Estimator::origin)
       .def("to_geodetic", &Estimator::to_geodetic, nb::arg("east_m"), nb::arg("north_m"))
       .def("to_local", &Estimator::to_local, nb::arg("latitude_deg"), nb::arg("longitude_deg"));
-  module.def(
-      "explain",
-      [](int fate) {
-        if (fate < 0 || fate >= static_cast<int>(kFrameFates)) throw std::invalid_argument("no frame's fate");
-        return explain(static_cast<FrameFate>(fate));
-      },
-      nb::arg("fate"));
 }
 
 }  // namespace geoloc::python

@@ -6,7 +6,9 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 
+#include "geoloc/geoloc.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "rows.hpp"
 #include "values.hpp"
@@ -32,6 +34,35 @@ std::optional<Fields> calibration_of(const std::optional<Calibration>& learnt) {
   return fields;
 }
 
+Counts counts_of(const Geolocator& geolocator) {
+  const Geolocator::Counters& frames = geolocator.counters();
+  const StateProvider::Counters state = geolocator.state().counters();
+  const TrackCounters& tracks = geolocator.track_counters();
+  Counts counts;
+  counts["frames"] = frames.frames;
+  counts["frames_located"] = frames.frames_located;
+  counts["frames_waiting"] = geolocator.frames_waiting();
+  counts["detections"] = frames.detections;
+  counts["detections_dropped"] = frames.detections_dropped;
+  counts["detections_at_edge"] = frames.detections_at_edge;
+  counts["attitudes"] = state.attitudes;
+  counts["positions"] = state.positions;
+  counts["gimbals"] = state.gimbals;
+  counts["focal_lengths"] = state.focal_lengths;
+  counts["ranges"] = frames.ranges;
+  counts["duplicates"] = state.duplicates;
+  counts["stale"] = state.stale;
+  counts["invalid"] = state.invalid;
+  counts["out_of_range"] = state.out_of_range;
+  counts["too_far"] = state.too_far;
+  counts["reboots"] = state.reboots;
+  counts["tracks_created"] = tracks.created;
+  counts["tracks_removed"] = tracks.removed;
+  counts["tracks_merged"] = tracks.merged;
+  counts["tracks_refused"] = tracks.refused;
+  return counts;
+}
+
 }  // namespace geoloc::python
 
 NB_MODULE(_core, module) {
@@ -41,6 +72,14 @@ NB_MODULE(_core, module) {
     return std::array<std::size_t, 4>{sizeof(ObjectRow), sizeof(FixRow), sizeof(RawFixRow),
                                       sizeof(TrajectoryRow)};
   });
+  module.def(
+      "explain",
+      [](int fate) {
+        if (fate < 0 || fate >= static_cast<int>(geoloc::kFrameFates))
+          throw std::invalid_argument("no frame's fate");
+        return geoloc::explain(static_cast<geoloc::FrameFate>(fate));
+      },
+      nb::arg("fate"));
   bind_geolocator(module);
   bind_recordings(module);
 }
