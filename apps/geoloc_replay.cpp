@@ -18,6 +18,7 @@
 #include "common/output_options.hpp"
 #include "common/outputs.hpp"
 #include "common/prior_options.hpp"
+#include "common/recorded_config.hpp"
 #include "common/run_record.hpp"
 #include "common/stop_signal.hpp"
 #include "geoloc/io/recording/recording_reader.hpp"
@@ -41,27 +42,6 @@ struct Options {
   GroundOptions ground;
   OutputOptions outputs;
 };
-
-/// The sections that only a live run has; a recording's config.json holds them too.
-const std::vector<std::string> kLiveSections{"video", "detection"};
-
-void apply(const nlohmann::json& document, const std::string& name, EstimationConfig& config) {
-  std::vector<std::string> problems;
-  estimation_from_json(document, kLiveSections, config, problems);
-  refuse_problems(name, problems);
-}
-
-/// A recording's own settings. Recordings of before December 2026 call the joint method `full`.
-nlohmann::json recorded_settings(const std::string& text) {
-  nlohmann::json settings = nlohmann::json::parse(text, nullptr, false);
-  if (!settings.is_object()) return settings;
-  if (settings.value("method", nlohmann::json()) == "full") settings["method"] = "joint";
-  if (settings.contains("full") && !settings.contains("joint")) {
-    settings["joint"] = std::move(settings["full"]);
-    settings.erase("full");
-  }
-  return settings;
-}
 
 /// Names the settings of the file that change nothing: those of the live run, of which the recording tells
 /// what came of them, and those that other options leave without effect.
@@ -88,16 +68,16 @@ EstimationConfig choose_config(const Options& options, const io::Recording* reco
   nlohmann::json recorded;
   if (recording != nullptr && recording->config_json) {
     recorded = recorded_settings(*recording->config_json);
-    apply(recorded, options.recording + "/config.json", config);
+    apply_settings(recorded, options.recording + "/config.json", config);
   }
   if (recording != nullptr) config.geolocator.camera = recording->camera;
   const nlohmann::json before = estimation_to_json(config);
   nlohmann::json document;
   if (!options.config_file.empty()) {
     document = read_config_document(options.config_file);
-    apply(document, options.config_file, config);
+    apply_settings(document, options.config_file, config);
   }
-  if (!options.method.empty()) apply({{"method", options.method}}, "--method", config);
+  if (!options.method.empty()) apply_settings({{"method", options.method}}, "--method", config);
   tell_ignored(options, document, before, recorded, config);
   apply_priors(options.priors, config.geolocator);
   if (const std::string remarks = apply_ground(options.ground, config.geolocator); !remarks.empty())

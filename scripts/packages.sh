@@ -15,7 +15,7 @@ RUN_PACKAGES=(
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-plugins-ugly
   gstreamer1.0-libav
 )
-TEST_PACKAGES=(git chromium libgtest-dev libbenchmark-dev gdal-bin libimage-exiftool-perl openssl)
+TEST_PACKAGES=(git chromium dpkg-dev file python3-dev libgtest-dev libbenchmark-dev gdal-bin libimage-exiftool-perl openssl)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-dev)
 OPENVINO_VERSION=2026.4.1  # on PyPI
 

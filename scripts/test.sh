@@ -14,6 +14,8 @@ source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${GDAL_PACKAGES[@]}" "${RUN_PACKAGES[@]}" "${TEST_PACKAGES[@]}"
 # The programs that read our outputs back get an environment of their own.
 install_from_pypi build/consumers tests/apps/requirements.txt --only-binary :all: --no-deps
+# The Python module is built and tested in another.
+[ "$preset" = asan ] || install_from_pypi build/python tests/python/requirements.txt --only-binary :all: --no-deps
 [ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers check a build with OpenCV alone
 configure "$preset" "$@"
 say "Building ($preset)"

@@ -84,6 +84,10 @@ nlohmann::ordered_json to_json(const RecordedFrame& frame) {
 
 }  // namespace
 
+std::string frame_to_line(const RecordedFrame& frame) {
+  return to_json(frame).dump() + "\n";
+}
+
 RecordingWriter::Place RecordingWriter::make_place(fs::path folder, NameTaken name_taken) {
   if (!folder.has_filename()) folder = folder.parent_path();  // a trailing slash
   for (int number = 1;; ++number) {
@@ -149,7 +153,7 @@ void RecordingWriter::add_telemetry(HostTime received_at, const std::uint8_t* fr
 }
 
 void RecordingWriter::add_frame(const RecordedFrame& frame) {
-  frames_.append(to_json(frame).dump() + "\n");
+  frames_.append(frame_to_line(frame));
 }
 
 void RecordingWriter::add_note(const NotedObject& noted) {

@@ -79,6 +79,9 @@ class RecordingWriter {
   std::uint64_t telemetry_records_ = 0;
 };
 
+/// A line of frames.jsonl, with its end.
+std::string frame_to_line(const RecordedFrame& frame);
+
 /// The content of truth.geojson: a FeatureCollection of Points.
 std::string truth_to_geojson(const std::vector<TrueTarget>& targets);
 

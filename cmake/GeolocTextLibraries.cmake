@@ -1,0 +1,22 @@
+# fmt::fmt and nlohmann_json::nlohmann_json: the system's. A wheel is built where they may be missing: then their headers, from the
+# packages of PyPI that pyproject.toml names, do.
+find_package(fmt QUIET)
+find_package(nlohmann_json 3.9 QUIET)
+
+# geoloc_headers_from_pypi(fmt::fmt fmt/format.h cmeel.prefix/include [DEFINITION])
+function(geoloc_headers_from_pypi target header folder)
+  if(TARGET ${target})
+    return()
+  endif()
+  string(MAKE_C_IDENTIFIER "${target}" _name)
+  find_path(GEOLOC_${_name}_INCLUDE_DIR "${header}" PATH_SUFFIXES "${folder}")
+  if(NOT GEOLOC_${_name}_INCLUDE_DIR)
+    message(FATAL_ERROR "${header} is missing: apt-get install libfmt-dev nlohmann-json3-dev")
+  endif()
+  add_library(geoloc_${_name} INTERFACE)
+  add_library(${target} ALIAS geoloc_${_name})
+  target_include_directories(geoloc_${_name} SYSTEM INTERFACE "${GEOLOC_${_name}_INCLUDE_DIR}")
+  target_compile_definitions(geoloc_${_name} INTERFACE ${ARGN})
+endfunction()
+geoloc_headers_from_pypi(fmt::fmt fmt/format.h cmeel.prefix/include FMT_HEADER_ONLY)
+geoloc_headers_from_pypi(nlohmann_json::nlohmann_json nlohmann/json.hpp nlohmann_json/include)

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The structured arrays that results come in, as python/bindings/rows.hpp lays them out."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+
+_TIME = "datetime64[ns]"
+
+#: Objects. Angles are in degrees from true north; NaN is what is not known.
+OBJECT = np.dtype(
+    [
+        ("id", "u8"),
+        ("class_id", "i8"),
+        ("hits", "i8"),
+        ("confidence", "f8"),
+        ("latitude_deg", "f8"),
+        ("longitude_deg", "f8"),
+        ("height_above_home_m", "f8"),
+        ("sigma_major_m", "f8"),
+        ("sigma_minor_m", "f8"),
+        ("sigma_azimuth_deg", "f8"),
+        ("sigma_height_m", "f8"),
+        ("position_in_enu_m", "f8", 2),
+        ("covariance_m2", "f8", (2, 2)),
+        ("velocity_in_enu_mps", "f8", 2),
+        ("velocity_covariance_m2ps2", "f8", (2, 2)),
+        ("first_seen", _TIME),
+        ("last_seen", _TIME),
+        ("is_confirmed", "?"),
+    ],
+    align=True,
+)
+
+_BOX = [("box_px", "f8", 4), ("confidence", "f8"), ("class_id", "i8")]
+_PLACE = [("latitude_deg", "f8"), ("longitude_deg", "f8")]
+
+#: Detections of the frame located last, where they meet the ground. ground_from_pixel_mppx is d(east, north) / d(u, v).
+FIX = np.dtype(
+    [*_BOX, *_PLACE, ("position_in_enu_m", "f8", 2), ("ground_from_pixel_mppx", "f8", (2, 2)), ("range_m", "f8")],
+    align=True,
+)
+
+#: Detections of a whole run. object_id is -1 for a detection that is no object's.
+RAW_FIX = np.dtype(
+    [
+        ("captured_at", _TIME),
+        ("frame", "u8"),
+        ("object_id", "i8"),
+        *_BOX,
+        *_PLACE,
+        ("position_in_enu_m", "f8", 2),
+        ("range_m", "f8"),
+        ("expected_px", "f8", 2),
+    ],
+    align=True,
+)
+
+#: Where the vehicle was at the located frames of a run.
+TRAJECTORY = np.dtype([("captured_at", _TIME), *_PLACE, ("position_in_enu_m", "f8", 3)], align=True)
+
+_sizes = tuple(dtype.itemsize for dtype in (OBJECT, FIX, RAW_FIX, TRAJECTORY))
+if _sizes != tuple(_core.row_sizes()):
+    raise ImportError(f"geoloc's module lays out rows of {_core.row_sizes()} bytes, not of {_sizes}: install it anew")
+
+
+def rows(content: bytes, dtype: np.dtype) -> npt.NDArray[np.void]:
+    """An array of one's own."""
+    return np.frombuffer(bytearray(content), dtype=dtype)

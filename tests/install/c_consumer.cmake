@@ -1,0 +1,28 @@
+# The example in C, built against the installed tree by a project in C alone and by pkg-config, prints what it prints here.
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
+set(source "${WORK_DIR}/c_consumer")
+file(REMOVE_RECURSE "${source}")
+file(COPY "${CMAKE_CURRENT_LIST_DIR}/c_consumer/" DESTINATION "${source}")
+file(COPY_FILE "${CMAKE_CURRENT_LIST_DIR}/../../examples/03_from_c.c" "${source}/main.c")
+run("${BUILD_DIR}/examples/example_03_from_c")
+set(expected "${output}")
+
+run("${CMAKE_COMMAND}" -S "${source}" -B "${source}/build" -G "${GENERATOR}"
+  "-DCMAKE_PREFIX_PATH=${tree}" "-DCMAKE_C_COMPILER=${C_COMPILER}" "-DCMAKE_C_FLAGS=${CXX_FLAGS}")
+run("${CMAKE_COMMAND}" --build "${source}/build")
+run("${source}/build/consumer")
+if(NOT output STREQUAL expected OR NOT output MATCHES "object 1: 47.397969[0-9], 8.545639[0-9]")
+  message(FATAL_ERROR "${output}\ninstead of\n${expected}")
+endif()
+
+if(PKG_CONFIG)
+  set(ENV{PKG_CONFIG_PATH} "${tree}/${LIBRARY_FOLDER}/pkgconfig:$ENV{PKG_CONFIG_PATH}")
+  run("${PKG_CONFIG}" --cflags --libs "geoloc_c >= 0.1")
+  separate_arguments(flags UNIX_COMMAND "${CXX_FLAGS} ${output}")
+  run("${C_COMPILER}" -std=c99 "${source}/main.c" ${flags} -lm -o "${source}/by_pkg_config")
+  set(ENV{LD_LIBRARY_PATH} "${tree}/${LIBRARY_FOLDER}")
+  run("${source}/by_pkg_config")
+  if(NOT output STREQUAL expected)
+    message(FATAL_ERROR "${output}\ninstead of\n${expected}")
+  endif()
+endif()
