@@ -171,8 +171,8 @@ RunResult run_method(const SimulatedRun& run, const Contender& contender, Estima
   config.geolocator.known_points = survey.points;
   Session session(config);
   RunProgress progress;
-  replay(run.flight.telemetry, run.frames, session, [&](const PendingFrame& frame, bool) {
-    if (run.wants_progress) progress.observe(session, frame.captured_at, run.truth);
+  replay(run.flight.telemetry, run.frames, session, [&](const PendingFrame& pending, bool) {
+    if (run.wants_progress) progress.observe(session, pending.captured_at, run.truth);
     return true;
   });
   RunResult result;

@@ -40,29 +40,55 @@ NodeMatrix ArrowheadSolver::Solution::newest_node_covariance() const {
   return newest_covariance_.topLeftCorner<kNodeSize, kNodeSize>();
 }
 
-std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftTimeline& drift) const {
+std::optional<WanderingScales> ArrowheadSolver::Solution::observed_wandering(
+    const DriftTimeline& drift) const {
   constexpr int kEnoughNodes = 8;
   if (drift.size() < kEnoughNodes) return std::nullopt;
-  double sum = 0.0;
-  int count = 0;
-  EnvelopeCholesky::Rows& steps = solver_->sensitivities_;  // the third row stays zero
-  for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number) {
-    const DriftNode& node = drift.node(number);
-    if (node.is_after_step()) continue;
-    const Eigen::Index here = layout_.column_of(number), before = here - kNodeSize;
-    const Eigen::Array2d transition = node.transition.head<2>();
-    const Eigen::Array2d step =
-        node.mean.head<2>().array() - transition * drift.node(number - 1).mean.head<2>().array();
-    steps.setZero();
-    steps.block<2, 2>(0, here).setIdentity();
-    steps.block<2, 2>(0, before).diagonal() = -transition;
-    solver_->information_.solve_lower(steps, before);
-    const Eigen::Array2d variance = steps.block(0, 0, 2, layout_.size()).rowwise().squaredNorm();
-    sum += ((step.square() + variance) * node.information.head<2>().array()).sum();
-    count += 2;
+  find_node_rows();
+  PositionPrior& prior = solver_->position_prior_;
+  PositionPrior::Excess sum;
+  for (int component = 0; component < 2; ++component) {
+    prior.form(drift, component);
+    find_moments(drift, component);
+    const PositionPrior::Excess excess = prior.excess(solver_->moments_);
+    sum.of_wandering += excess.of_wandering;
+    sum.of_ripple += excess.of_ripple;
   }
-  if (count == 0) return std::nullopt;
-  return std::sqrt(sum / count);
+  const double count = 2.0 * drift.size();
+  return WanderingScales{drift.position_scale() * std::sqrt(1.0 + sum.of_wandering / count),
+                         drift.ripple_scale() * std::sqrt(1.0 + sum.of_ripple / count)};
+}
+
+/// Rows e' L^-T of S^-1 = L^-T L^-1, for e the nodes' east and north by turns: their products are
+/// covariances.
+void ArrowheadSolver::Solution::find_node_rows() const {
+  const Eigen::Index rows = 2 * static_cast<Eigen::Index>(layout_.end - layout_.begin);
+  const auto column_of_row = [&](Eigen::Index row) {
+    return layout_.column_of(layout_.begin) + kNodeSize * (row / 2) + row % 2;
+  };
+  EnvelopeCholesky::Rows& units = solver_->sensitivities_;
+  for (Eigen::Index row = 0; row < rows; row += kPointSize) {
+    const Eigen::Index count = std::min<Eigen::Index>(kPointSize, rows - row);
+    units.leftCols(layout_.size()).setZero();
+    for (Eigen::Index k = 0; k < count; ++k) units(k, column_of_row(row + k)) = 1.0;
+    solver_->information_.solve_lower(units, column_of_row(row));
+    solver_->node_rows_.block(row, 0, count, layout_.size()) = units.topLeftCorner(count, layout_.size());
+  }
+}
+
+/// Of the nodes' east or north about what the prior expects.
+void ArrowheadSolver::Solution::find_moments(const DriftTimeline& drift, int component) const {
+  const PositionPrior& prior = solver_->position_prior_;
+  const auto off_m = [&](Eigen::Index node) {
+    return drift.node(layout_.begin + static_cast<std::uint32_t>(node)).mean[component] - prior.mean(node);
+  };
+  for (Eigen::Index i = 0; i < prior.size(); ++i) {
+    const auto row = solver_->node_rows_.row(2 * i + component).head(layout_.size());
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      const auto other = solver_->node_rows_.row(2 * j + component).head(layout_.size());
+      solver_->moments_(i, j) = solver_->moments_(j, i) = row.dot(other) + off_m(i) * off_m(j);
+    }
+  }
 }
 
 void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign) {

@@ -36,6 +36,9 @@ struct DriftNode {
   NodeVector transition = NodeVector::Zero();
   NodeVector information = NodeVector::Zero();
   NodeVector prior_mean = NodeVector::Zero();
+  /// The same of the position's ripple, east and north alike, whose mean is zero.
+  double ripple_transition = 0.0;
+  double ripple_innovation = 0.0;  ///< its variance, given the ripple of the node before
   /// Variance that a step of the vehicle's state adds to the prior.
   NodeVector step_variance = NodeVector::Zero();
 
@@ -85,9 +88,19 @@ class DriftTimeline {
     return (smooth.cwiseInverse() + node(number).step_variance).cwiseInverse();
   }
 
-  /// How strongly the position wanders against what the receiver's accuracy let expect.
+  /// Variances of the position's wandering and of its ripple, given those of the node before; without steps.
+  double wandering_variance(std::uint32_t number, int component) const {
+    return position_scale_ * position_scale_ / node(number).information[component];
+  }
+  double ripple_variance(std::uint32_t number) const {
+    return ripple_scale_ * ripple_scale_ * node(number).ripple_innovation;
+  }
+
+  /// How strongly the position wanders against what the receiver's accuracy let expect; and its ripple.
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }
+  double ripple_scale() const { return ripple_scale_; }
+  void set_ripple_scale(double scale) { ripple_scale_ = scale; }
 
   /// Errors that last for a second or so, beside the drift.
   const SwayTimeline& sway() const { return sway_; }
@@ -124,6 +137,7 @@ class DriftTimeline {
   std::uint32_t end_ = 0;
   std::uint32_t begin_of_fine_ = 0;
   double position_scale_ = 1.0;
+  double ripple_scale_ = 1.0;
 };
 
 }  // namespace geoloc
