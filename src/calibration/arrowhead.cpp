@@ -30,8 +30,6 @@ HeadLayout layout_of(const DriftTimeline& drift) {
 
 ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift)
     : position_prior_(drift.max_nodes + 2),
-      node_rows_(2 * (drift.max_nodes + 2), room_for(drift)),
-      moments_(drift.max_nodes + 2, drift.max_nodes + 2),
       information_(room_for(drift)),
       right_hand_side_(room_for(drift)),
       sensitivities_(kPointSize, room_for(drift)),

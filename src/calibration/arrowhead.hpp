@@ -48,12 +48,6 @@ struct FlightPrior {
   std::optional<LatencyPrior> latency = std::nullopt;  ///< in place of the camera's, where it is another
 };
 
-/// How strongly the position is off, in units of what is expected.
-struct WanderingScales {
-  double wandering;
-  double ripple;
-};
-
 /// Least squares over everything seen so far: calibration and drift (the head) and all objects (the arrow's
 /// shaft), which are eliminated one by one because no look joins two of them. Exact up to linearisation
 /// (docs/method.md).
@@ -78,15 +72,14 @@ class ArrowheadSolver {
     /// Covariance of the difference of two objects' positions [m^2]: what they share cancels.
     PointMatrix covariance_of_difference(const Landmark& a, const Landmark& b) const;
 
-    /// How strongly the position was seen to wander, and to ripple, in units of what the nodes' prior says:
-    /// one step of expectation maximisation. `drift` holds this solution's means, and the scales that it was
-    /// found with. nullopt while there are too few nodes to tell. Costs as much as a solution.
-    std::optional<WanderingScales> observed_wandering(const DriftTimeline& drift) const;
+    /// How strongly the position was seen to wander, in units of what the nodes' prior says: one step of
+    /// expectation maximisation. `drift` holds this solution's means, and the scale that it was found with.
+    /// nullopt while there are too few nodes to tell. Costs as much as a solution.
+    std::optional<double> observed_wandering(const DriftTimeline& drift) const;
 
    private:
     friend class ArrowheadSolver;
-    void find_node_rows() const;
-    void find_moments(const DriftTimeline& drift, int component) const;
+    double sum_of_steps(const DriftTimeline& drift, int component) const;
     Solution(ArrowheadSolver& solver, const HeadLayout& layout);
 
     ArrowheadSolver* solver_;
@@ -126,11 +119,8 @@ class ArrowheadSolver {
   };
 
   CalibrationVector prior_mean_;
-  CalibrationVector prior_sigma_;  // of all but the height and the offset
-  // Scratch of the position's prior: rows of L^-1 that belong to the nodes' east and north, and moments.
-  PositionPrior position_prior_;
-  PositionPrior::Matrix node_rows_;
-  PositionPrior::Matrix moments_;
+  CalibrationVector prior_sigma_;         // of all but the height and the offset
+  PositionPrior position_prior_;          // scratch
   EnvelopeCholesky information_;          // S, and its factor after solve()
   Eigen::VectorXd right_hand_side_;       // h, and the head after solve()
   EnvelopeCholesky::Rows sensitivities_;  // scratch: dx/d(head)

@@ -40,55 +40,41 @@ NodeMatrix ArrowheadSolver::Solution::newest_node_covariance() const {
   return newest_covariance_.topLeftCorner<kNodeSize, kNodeSize>();
 }
 
-std::optional<WanderingScales> ArrowheadSolver::Solution::observed_wandering(
-    const DriftTimeline& drift) const {
+std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftTimeline& drift) const {
   constexpr int kEnoughNodes = 8;
   if (drift.size() < kEnoughNodes) return std::nullopt;
-  find_node_rows();
+  int count = 0;
+  for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number)
+    count += drift.node(number).is_after_step() ? 0 : 2;
+  if (count == 0) return std::nullopt;
+  const double sum = sum_of_steps(drift, 0) + sum_of_steps(drift, 1);
+  return drift.position_scale() * std::sqrt(sum / count);
+}
+
+/// Expected squares of what the nodes' east or north differs by from what those before let expect, in units
+/// of the prior's variances. Three nodes at a time.
+double ArrowheadSolver::Solution::sum_of_steps(const DriftTimeline& drift, int component) const {
   PositionPrior& prior = solver_->position_prior_;
-  PositionPrior::Excess sum;
-  for (int component = 0; component < 2; ++component) {
-    prior.form(drift, component);
-    find_moments(drift, component);
-    const PositionPrior::Excess excess = prior.excess(solver_->moments_);
-    sum.of_wandering += excess.of_wandering;
-    sum.of_ripple += excess.of_ripple;
-  }
-  const double count = 2.0 * drift.size();
-  return WanderingScales{drift.position_scale() * std::sqrt(1.0 + sum.of_wandering / count),
-                         drift.ripple_scale() * std::sqrt(1.0 + sum.of_ripple / count)};
-}
-
-/// Rows e' L^-T of S^-1 = L^-T L^-1, for e the nodes' east and north by turns: their products are
-/// covariances.
-void ArrowheadSolver::Solution::find_node_rows() const {
-  const Eigen::Index rows = 2 * static_cast<Eigen::Index>(layout_.end - layout_.begin);
-  const auto column_of_row = [&](Eigen::Index row) {
-    return layout_.column_of(layout_.begin) + kNodeSize * (row / 2) + row % 2;
-  };
-  EnvelopeCholesky::Rows& units = solver_->sensitivities_;
-  for (Eigen::Index row = 0; row < rows; row += kPointSize) {
-    const Eigen::Index count = std::min<Eigen::Index>(kPointSize, rows - row);
-    units.leftCols(layout_.size()).setZero();
-    for (Eigen::Index k = 0; k < count; ++k) units(k, column_of_row(row + k)) = 1.0;
-    solver_->information_.solve_lower(units, column_of_row(row));
-    solver_->node_rows_.block(row, 0, count, layout_.size()) = units.topLeftCorner(count, layout_.size());
-  }
-}
-
-/// Of the nodes' east or north about what the prior expects.
-void ArrowheadSolver::Solution::find_moments(const DriftTimeline& drift, int component) const {
-  const PositionPrior& prior = solver_->position_prior_;
-  const auto off_m = [&](Eigen::Index node) {
-    return drift.node(layout_.begin + static_cast<std::uint32_t>(node)).mean[component] - prior.mean(node);
-  };
-  for (Eigen::Index i = 0; i < prior.size(); ++i) {
-    const auto row = solver_->node_rows_.row(2 * i + component).head(layout_.size());
-    for (Eigen::Index j = 0; j <= i; ++j) {
-      const auto other = solver_->node_rows_.row(2 * j + component).head(layout_.size());
-      solver_->moments_(i, j) = solver_->moments_(j, i) = row.dot(other) + off_m(i) * off_m(j);
+  prior.form(drift, component);
+  EnvelopeCholesky::Rows& steps = solver_->sensitivities_;
+  const Eigen::Index first = layout_.column_of(layout_.begin);
+  const auto number = [&](Eigen::Index node) { return layout_.begin + static_cast<std::uint32_t>(node); };
+  double sum = 0.0;
+  for (Eigen::Index begin = 1; begin < prior.size(); begin += kPointSize) {
+    steps.leftCols(layout_.size()).setZero();
+    Point means = Point::Zero();
+    for (Eigen::Index k = 0; k < kPointSize && begin + k < prior.size(); ++k) {
+      if (drift.node(number(begin + k)).is_after_step()) continue;
+      for (Eigen::Index node = 0; node <= begin + k; ++node) {
+        const double weight = prior.whitening(begin + k, node);
+        means[k] += weight * (drift.node(number(node)).mean[component] - prior.mean(node));
+        steps(k, first + kNodeSize * node + component) = weight;
+      }
     }
+    solver_->information_.solve_lower(steps, first);
+    sum += means.squaredNorm() + steps.leftCols(layout_.size()).squaredNorm();
   }
+  return sum;
 }
 
 void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign) {

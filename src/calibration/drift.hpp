@@ -88,19 +88,14 @@ class DriftTimeline {
     return (smooth.cwiseInverse() + node(number).step_variance).cwiseInverse();
   }
 
-  /// Variances of the position's wandering and of its ripple, given those of the node before; without steps.
-  double wandering_variance(std::uint32_t number, int component) const {
-    return position_scale_ * position_scale_ / node(number).information[component];
-  }
+  /// Variance of the position's ripple, given that of the node before.
   double ripple_variance(std::uint32_t number) const {
-    return ripple_scale_ * ripple_scale_ * node(number).ripple_innovation;
+    return position_scale_ * position_scale_ * node(number).ripple_innovation;
   }
 
-  /// How strongly the position wanders against what the receiver's accuracy let expect; and its ripple.
+  /// How strongly the position wanders and ripples against what the receiver's accuracy let expect.
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }
-  double ripple_scale() const { return ripple_scale_; }
-  void set_ripple_scale(double scale) { ripple_scale_ = scale; }
 
   /// Errors that last for a second or so, beside the drift.
   const SwayTimeline& sway() const { return sway_; }
@@ -122,7 +117,7 @@ class DriftTimeline {
   /// Nodes from here on are estimated, and have the number that they had when they were made.
   std::uint32_t begin_of_fine() const { return std::max(begin_, begin_of_fine_); }
 
-  /// Forgets the oldest node: its estimate becomes the fixed start of what follows.
+  /// Forgets the oldest node: its estimate becomes the fixed start of what follows, as if all of it wandered.
   void freeze_oldest();
 
  private:
@@ -137,7 +132,6 @@ class DriftTimeline {
   std::uint32_t end_ = 0;
   std::uint32_t begin_of_fine_ = 0;
   double position_scale_ = 1.0;
-  double ripple_scale_ = 1.0;
 };
 
 }  // namespace geoloc

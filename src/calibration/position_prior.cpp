@@ -7,8 +7,7 @@
 namespace geoloc {
 
 PositionPrior::PositionPrior(Eigen::Index max_nodes) : mean_(Eigen::VectorXd::Zero(max_nodes)) {
-  for (Matrix* const matrix : {&wandering_, &ripple_, &root_, &whitening_, &information_, &scratch_})
-    matrix->setZero(max_nodes, max_nodes);
+  for (Matrix* const matrix : {&root_, &whitening_, &information_}) matrix->setZero(max_nodes, max_nodes);
 }
 
 void PositionPrior::form(const DriftTimeline& drift, int component) {
@@ -17,30 +16,25 @@ void PositionPrior::form(const DriftTimeline& drift, int component) {
   invert();
 }
 
-/// A process' covariance with a later node is its variance here, times the transitions until then. What a
-/// step adds wanders on.
+/// A process' covariance with a later node is its variance here, times the transitions until then.
 void PositionPrior::set_covariance(const DriftTimeline& drift, int component) {
   const auto node = [&](Eigen::Index i) -> const DriftNode& {
     return drift.node(drift.begin() + static_cast<std::uint32_t>(i));
   };
-  double mean = 0.0, wandering = 0.0, ripple = 0.0, step = 0.0;  // of the node before; variances
+  double mean = 0.0, wandering = 0.0, ripple = 0.0;  // of the node before; variances
   for (Eigen::Index i = 0; i < size_; ++i) {
-    const double kept = node(i).transition[component], kept_ripple = node(i).ripple_transition;
     const auto number = drift.begin() + static_cast<std::uint32_t>(i);
+    const double kept = node(i).transition[component], kept_ripple = node(i).ripple_transition;
     mean = node(i).prior_mean[component] + kept * mean;
-    wandering = kept * kept * wandering + drift.wandering_variance(number, component);
+    wandering = kept * kept * wandering + 1.0 / drift.information(number)[component];
     ripple = kept_ripple * kept_ripple * ripple + drift.ripple_variance(number);
-    step = kept * kept * step + node(i).step_variance[component];
     mean_[i] = mean;
-    double until = 1.0, until_of_ripple = 1.0;
-    for (Eigen::Index j = i; j < size_; ++j) {
-      if (j > i) {
-        until *= node(j).transition[component];
-        until_of_ripple *= node(j).ripple_transition;
-      }
-      wandering_(i, j) = wandering_(j, i) = until * wandering;
-      ripple_(i, j) = ripple_(j, i) = until_of_ripple * ripple;
-      root_(j, i) = wandering_(j, i) + ripple_(j, i) + until * step;
+    root_(i, i) = wandering + ripple;
+    double of_wandering = wandering, of_ripple = ripple;
+    for (Eigen::Index j = i + 1; j < size_; ++j) {
+      of_wandering *= node(j).transition[component];
+      of_ripple *= node(j).ripple_transition;
+      root_(j, i) = of_wandering + of_ripple;
     }
   }
 }
@@ -58,22 +52,6 @@ void PositionPrior::invert() {
   }
   const auto whitening = whitening_.topLeftCorner(size_, size_);
   information_.topLeftCorner(size_, size_) = whitening.transpose().lazyProduct(whitening);
-}
-
-/// With K the covariance, of which S is a part, and M the moments: tr(S (K^-1 M K^-1 - K^-1)).
-PositionPrior::Excess PositionPrior::excess(const Matrix& moments) {
-  const auto information = information_.topLeftCorner(size_, size_);
-  auto weighted = scratch_.topLeftCorner(size_, size_);
-  weighted = information.lazyProduct(moments.topLeftCorner(size_, size_));
-  Excess excess;
-  for (Eigen::Index i = 0; i < size_; ++i) {
-    for (Eigen::Index j = 0; j < size_; ++j) {
-      const double more = weighted.row(i).dot(information.row(j)) - information(i, j);
-      excess.of_wandering += wandering_(i, j) * more;
-      excess.of_ripple += ripple_(i, j) * more;
-    }
-  }
-  return excess;
 }
 
 }  // namespace geoloc

@@ -25,16 +25,9 @@ class PositionPrior {
   /// Of the inverse covariance [1/m^2].
   double information(Eigen::Index row, Eigen::Index column) const { return information_(row, column); }
 
-  /// Sums over the nodes, in units of the variances that are expected.
-  struct Excess {
-    double of_wandering = 0.0;
-    double of_ripple = 0.0;
-  };
-
-  /// By how much more the two were seen to vary than expected. `moments`: of the nodes about mean(), expected
-  /// given all that was seen [m^2], size() rows and columns. Expectation maximisation multiplies a variance
-  /// by 1 + excess / number of nodes.
-  Excess excess(const Matrix& moments);
+  /// W = L^-1, where L L' is the covariance: row i tells in sigmas by how much node i differs from what those
+  /// before it let expect. The lower triangle.
+  double whitening(Eigen::Index row, Eigen::Index column) const { return whitening_(row, column); }
 
  private:
   void set_covariance(const DriftTimeline& drift, int component);
@@ -42,11 +35,9 @@ class PositionPrior {
 
   Eigen::Index size_ = 0;
   Eigen::VectorXd mean_;
-  Matrix wandering_, ripple_;  // covariances, without steps
-  Matrix root_;                // of the whole covariance, its lower triangle; then Cholesky's factor L
-  Matrix whitening_;           // L^-1
+  Matrix root_;  // lower triangle of the covariance, then L
+  Matrix whitening_;
   Matrix information_;
-  Matrix scratch_;
 };
 
 }  // namespace geoloc

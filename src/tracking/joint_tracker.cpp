@@ -446,9 +446,7 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
 void JointTracker::learn_wandering(const Solution& solution) {
   if (!schedule_.teaches_wandering()) return;
   const auto wandering = solution.observed_wandering(errors_.drift);
-  if (!wandering) return;
-  errors_.drift.set_position_scale(std::clamp(wandering->wandering, kLeastWandering, kMostWandering));
-  errors_.drift.set_ripple_scale(std::clamp(wandering->ripple, kLeastWandering, kMostWandering));
+  if (wandering) errors_.drift.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
 }
 
 void JointTracker::merge_compatible(const Solution& solution, const JointFrame& frame,
