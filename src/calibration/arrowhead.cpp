@@ -13,6 +13,7 @@ namespace geoloc {
 namespace {
 
 constexpr int kCalibration = CalibrationIndex::kSize;
+using UpAndYaw = Eigen::Vector2d;  // of a node
 /// Stands for "exactly known": keeps the information finite.
 constexpr double kLeastSigma = 1e-9;
 
@@ -29,7 +30,8 @@ HeadLayout layout_of(const DriftTimeline& drift) {
 }  // namespace
 
 ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift)
-    : information_(room_for(drift)),
+    : position_prior_(drift.max_nodes + 2),
+      information_(room_for(drift)),
       right_hand_side_(room_for(drift)),
       sensitivities_(kPointSize, room_for(drift)),
       B_(kPointSize, room_for(drift)),
@@ -61,18 +63,36 @@ void ArrowheadSolver::add_prior(const Calibration& prior, const DriftTimeline& d
   const Eigen::Index last = layout.column_of_calibration();
   information_.block<kCalibration, kCalibration>(last, last).diagonal() += information;
   right_hand_side_.segment<kCalibration>(last) += information.cwiseProduct(prior.mean);
+  add_prior_of_position(drift, layout);
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number) {
     const DriftNode& node = drift.node(number);
-    const NodeVector information_of_node = drift.information(number);
-    const Eigen::Index here = layout.column_of(number);
-    information_.block<kNodeSize, kNodeSize>(here, here).diagonal() += information_of_node;
-    right_hand_side_.segment<kNodeSize>(here) += information_of_node.cwiseProduct(node.prior_mean);
+    const UpAndYaw information_of_node = drift.information(number).tail<2>(),
+                   transition = node.transition.tail<2>();
+    const Eigen::Index here = layout.column_of(number) + kNodeUp;
+    information_.block<2, 2>(here, here).diagonal() += information_of_node;
+    right_hand_side_.segment<2>(here) += information_of_node.cwiseProduct(node.prior_mean.tail<2>());
     if (number == drift.begin()) continue;
     const Eigen::Index before = here - kNodeSize;
-    const NodeVector coupling = node.transition.cwiseProduct(information_of_node);
-    information_.block<kNodeSize, kNodeSize>(before, before).diagonal() +=
-        coupling.cwiseProduct(node.transition);
-    information_.block<kNodeSize, kNodeSize>(here, before).diagonal() -= coupling;
+    const UpAndYaw coupling = transition.cwiseProduct(information_of_node);
+    information_.block<2, 2>(before, before).diagonal() += coupling.cwiseProduct(transition);
+    information_.block<2, 2>(here, before).diagonal() -= coupling;
+  }
+}
+
+/// East and north, of which each node depends on all before it.
+void ArrowheadSolver::add_prior_of_position(const DriftTimeline& drift, const HeadLayout& layout) {
+  for (int component = 0; component < 2; ++component) {
+    position_prior_.form(drift, component);
+    for (Eigen::Index i = 0; i < position_prior_.size(); ++i) {
+      const Eigen::Index row = layout.column_of(drift.begin()) + kNodeSize * i + component;
+      for (Eigen::Index j = 0; j <= i; ++j) {
+        const Eigen::Index column = layout.column_of(drift.begin()) + kNodeSize * j + component;
+        const double information = position_prior_.information(i, j);
+        information_.block<1, 1>(row, column)(0, 0) += information;
+        right_hand_side_[row] += information * position_prior_.mean(j);
+        if (j < i) right_hand_side_[column] += information * position_prior_.mean(i);
+      }
+    }
   }
 }
 

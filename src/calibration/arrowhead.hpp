@@ -9,6 +9,7 @@
 #include "calibration/envelope_cholesky.hpp"
 #include "calibration/height_log.hpp"
 #include "calibration/landmark.hpp"
+#include "calibration/position_prior.hpp"
 #include "geoloc/calibration/calibration.hpp"
 
 namespace geoloc {
@@ -74,12 +75,13 @@ class ArrowheadSolver {
     PointMatrix covariance_of_difference(const Landmark& a, const Landmark& b) const;
 
     /// How strongly the position was seen to wander, in units of what the nodes' prior says: one step of
-    /// expectation maximisation. `drift` holds this solution's means. nullopt while there are too few nodes
-    /// to tell. Costs as much as a solution.
+    /// expectation maximisation. `drift` holds this solution's means, and the scale that it was found with.
+    /// nullopt while there are too few nodes to tell. Costs as much as a solution.
     std::optional<double> observed_wandering(const DriftTimeline& drift) const;
 
    private:
     friend class ArrowheadSolver;
+    double sum_of_steps(const DriftTimeline& drift, int component) const;
     Solution(ArrowheadSolver& solver, const HeadLayout& layout);
 
     ArrowheadSolver* solver_;
@@ -104,6 +106,7 @@ class ArrowheadSolver {
 
  private:
   void add_prior(const Calibration& prior, const DriftTimeline& drift, const HeadLayout& layout);
+  void add_prior_of_position(const DriftTimeline& drift, const HeadLayout& layout);
   void add_prior_of_sway(const SwayTimeline& sway, const HeadLayout& layout);
   void add_heights(const HeightLog& heights, const HeadLayout& layout);
   void add_landmark(const Landmark& landmark, const HeadLayout& layout);
@@ -121,6 +124,7 @@ class ArrowheadSolver {
 
   CalibrationVector prior_mean_;
   CalibrationVector prior_sigma_;         // of all but the height and the offset
+  PositionPrior position_prior_;          // scratch
   EnvelopeCholesky information_;          // S, and its factor after solve()
   Eigen::VectorXd right_hand_side_;       // h, and the head after solve()
   EnvelopeCholesky::Rows sensitivities_;  // scratch: dx/d(head)

@@ -43,26 +43,38 @@ NodeMatrix ArrowheadSolver::Solution::newest_node_covariance() const {
 std::optional<double> ArrowheadSolver::Solution::observed_wandering(const DriftTimeline& drift) const {
   constexpr int kEnoughNodes = 8;
   if (drift.size() < kEnoughNodes) return std::nullopt;
-  double sum = 0.0;
   int count = 0;
-  EnvelopeCholesky::Rows& steps = solver_->sensitivities_;  // the third row stays zero
-  for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number) {
-    const DriftNode& node = drift.node(number);
-    if (node.is_after_step()) continue;
-    const Eigen::Index here = layout_.column_of(number), before = here - kNodeSize;
-    const Eigen::Array2d transition = node.transition.head<2>();
-    const Eigen::Array2d step =
-        node.mean.head<2>().array() - transition * drift.node(number - 1).mean.head<2>().array();
-    steps.setZero();
-    steps.block<2, 2>(0, here).setIdentity();
-    steps.block<2, 2>(0, before).diagonal() = -transition;
-    solver_->information_.solve_lower(steps, before);
-    const Eigen::Array2d variance = steps.block(0, 0, 2, layout_.size()).rowwise().squaredNorm();
-    sum += ((step.square() + variance) * node.information.head<2>().array()).sum();
-    count += 2;
-  }
+  for (std::uint32_t number = layout_.begin + 1; number != layout_.end; ++number)
+    count += drift.node(number).is_after_step() ? 0 : 2;
   if (count == 0) return std::nullopt;
-  return std::sqrt(sum / count);
+  const double sum = sum_of_steps(drift, 0) + sum_of_steps(drift, 1);
+  return drift.position_scale() * std::sqrt(sum / count);
+}
+
+/// Expected squares of what the nodes' east or north differs by from what those before let expect, in units
+/// of the prior's variances. Three nodes at a time.
+double ArrowheadSolver::Solution::sum_of_steps(const DriftTimeline& drift, int component) const {
+  PositionPrior& prior = solver_->position_prior_;
+  prior.form(drift, component);
+  EnvelopeCholesky::Rows& steps = solver_->sensitivities_;
+  const Eigen::Index first = layout_.column_of(layout_.begin);
+  const auto number = [&](Eigen::Index node) { return layout_.begin + static_cast<std::uint32_t>(node); };
+  double sum = 0.0;
+  for (Eigen::Index begin = 1; begin < prior.size(); begin += kPointSize) {
+    steps.leftCols(layout_.size()).setZero();
+    Point means = Point::Zero();
+    for (Eigen::Index k = 0; k < kPointSize && begin + k < prior.size(); ++k) {
+      if (drift.node(number(begin + k)).is_after_step()) continue;
+      for (Eigen::Index node = 0; node <= begin + k; ++node) {
+        const double weight = prior.whitening(begin + k, node);
+        means[k] += weight * (drift.node(number(node)).mean[component] - prior.mean(node));
+        steps(k, first + kNodeSize * node + component) = weight;
+      }
+    }
+    solver_->information_.solve_lower(steps, first);
+    sum += means.squaredNorm() + steps.leftCols(layout_.size()).squaredNorm();
+  }
+  return sum;
 }
 
 void ArrowheadSolver::add_sensitivity(const Landmark& landmark, const HeadLayout& layout, double sign) {

@@ -52,16 +52,20 @@ void DriftTimeline::append(VehicleTime time, double sigma_position_m, bool conti
   next.time = time;
   next.serial = history_.append();
   const double sigma_yaw = config_.sigma_yaw_deg * kRadPerDeg;
-  const NodeVector sigma(sigma_position_m, sigma_position_m, config_.sigma_up_m, sigma_yaw);
+  const double sigma_wandering_m = std::sqrt(1.0 - config_.ripple_share) * sigma_position_m;
+  const NodeVector sigma(sigma_wandering_m, sigma_wandering_m, config_.sigma_up_m, sigma_yaw);
   if (continues) {
     const double pause_s = std::abs(seconds(time - node(end_ - 1).time));
     const double position = std::exp(-pause_s / config_.position_time_constant_s);
     const double up = std::exp(-pause_s / config_.up_time_constant_s);
     const double yaw = std::exp(-pause_s / config_.yaw_time_constant_s);
     next.transition = NodeVector(position, position, up, yaw);
+    next.ripple_transition = std::exp(-pause_s / config_.ripple_time_constant_s);
     next.mean = next.transition.cwiseProduct(node(end_ - 1).mean);
   }
   next.information = (sigma.array().square() * (1.0 - next.transition.array().square())).inverse();
+  next.ripple_innovation = config_.ripple_share * sigma_position_m * sigma_position_m *
+                           (1.0 - next.ripple_transition * next.ripple_transition);
   nodes_[slot(end_)] = next;
   ++end_;
 }
@@ -107,6 +111,8 @@ void DriftTimeline::thin(const ThinnedNode& thinned) {
       after.information.cwiseInverse() + after.transition.cwiseAbs2().cwiseQuotient(gone.information);
   after.information = variance.cwiseInverse();
   after.transition = after.transition.cwiseProduct(gone.transition);
+  after.ripple_innovation += std::pow(after.ripple_transition, 2) * gone.ripple_innovation;
+  after.ripple_transition *= gone.ripple_transition;
   for (std::uint32_t number = thinned.number; number > begin_; --number) node(number) = node(number - 1);
   ++begin_;
   begin_of_fine_ = std::max(begin_of_fine_, thinned.number + 1);
@@ -118,6 +124,7 @@ void DriftTimeline::freeze_oldest() {
   DriftNode& heir = node(begin_ + 1);
   heir.prior_mean = heir.transition.cwiseProduct(oldest.mean);
   heir.transition.setZero();
+  heir.ripple_transition = 0.0;
   ++begin_;
 }
 

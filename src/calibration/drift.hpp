@@ -38,6 +38,9 @@ struct DriftNode {
   NodeVector transition = NodeVector::Zero();
   NodeVector information = NodeVector::Zero();
   NodeVector prior_mean = NodeVector::Zero();
+  /// The same of the position's ripple, east and north alike, whose mean is zero.
+  double ripple_transition = 0.0;
+  double ripple_innovation = 0.0;  ///< its variance, given the ripple of the node before
   /// Variance that a step of the vehicle's state adds to the prior.
   NodeVector step_variance = NodeVector::Zero();
 
@@ -87,7 +90,12 @@ class DriftTimeline {
     return (smooth.cwiseInverse() + node(number).step_variance).cwiseInverse();
   }
 
-  /// How strongly the position wanders against what the receiver's accuracy let expect.
+  /// Variance of the position's ripple, given that of the node before.
+  double ripple_variance(std::uint32_t number) const {
+    return position_scale_ * position_scale_ * node(number).ripple_innovation;
+  }
+
+  /// How strongly the position wanders and ripples against what the receiver's accuracy let expect.
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }
 
@@ -120,7 +128,7 @@ class DriftTimeline {
   /// Nodes from here on are estimated, and have the number that they had when they were made.
   std::uint32_t begin_of_fine() const { return std::max(begin_, begin_of_fine_); }
 
-  /// Forgets the oldest node: its estimate becomes the fixed start of what follows.
+  /// Forgets the oldest node: its estimate becomes the fixed start of what follows, as if all of it wandered.
   void freeze_oldest();
 
  private:

@@ -12,6 +12,10 @@ void visit_fields(Visitor& v, DriftConfig& drift) {
           "Time between the nodes of the drift; it is interpolated linearly between them");
   v.field("position_time_constant_s", drift.position_time_constant_s, Range::positive(), "s",
           "Correlation time of the position's drift");
+  v.field("ripple_share", drift.ripple_share, Range::closed(0, 0.9), "",
+          "Share of the variance of the position's drift that lasts for seconds only");
+  v.field("ripple_time_constant_s", drift.ripple_time_constant_s, Range::positive(), "s",
+          "Correlation time of that share");
   v.field("up_time_constant_s", drift.up_time_constant_s, Range::positive(), "s",
           "Correlation time of the height's drift");
   v.field("sigma_up_m", drift.sigma_up_m, Range::above(0, 100), "m", "1-sigma of the height's drift");

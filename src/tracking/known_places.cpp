@@ -13,10 +13,12 @@ namespace {
 /// Looks of a shorter time share the noise of their frames.
 constexpr Duration kKnownFor = std::chrono::milliseconds{500};
 
-/// Share of a wander's 1-sigma that comes within a time.
-double wandered_since(VehicleTime then, VehicleTime now, double time_constant_s) {
+/// Share of the position's 1-sigma, wandering and ripple together, that comes within a time.
+double wandered_since(VehicleTime then, VehicleTime now, const DriftConfig& drift) {
   const double ago_s = std::max(0.0, seconds(now - then));
-  return std::sqrt(1.0 - std::exp(-2.0 * ago_s / time_constant_s));
+  const auto comes = [&](double time_constant_s) { return 1.0 - std::exp(-2.0 * ago_s / time_constant_s); };
+  return std::sqrt((1.0 - drift.ripple_share) * comes(drift.position_time_constant_s) +
+                   drift.ripple_share * comes(drift.ripple_time_constant_s));
 }
 
 }  // namespace
@@ -32,7 +34,7 @@ void list_places(const TrackTable& tracks, const SharedErrorEstimate& errors, co
       errors.calibration, newest, frame.projector.config().ground_height_above_home_m + frame.view.lifted_m);
   for (const RestingObject& track : tracks) {
     WatchedPlace place{shift.shown(Eigen::Vector3d(track.position_in_enu)), 0.0, 0.0,
-                       wandered_since(track.last_look, now, drift.position_time_constant_s), false};
+                       wandered_since(track.last_look, now, drift), false};
     place.is_known =
         track.is_confirmed() && now - track.sums_since > kKnownFor && track.sums_since <= proven_at;
     if (place.is_known) {

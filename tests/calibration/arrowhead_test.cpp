@@ -117,6 +117,41 @@ class ArrowheadProblem : public ::testing::Test {
   }
   ArrowheadSolver::Solution solve() { return solve(solver_, all()); }
 
+  /// Covariance of a process at the nodes, where each is transition times the one before and an independent
+  /// rest.
+  template <typename Transition, typename Variance>
+  Eigen::MatrixXd covariance_of_process(const Transition& transition, const Variance& variance) const {
+    const Eigen::Index size = drift_.size();
+    Eigen::MatrixXd from_rests = Eigen::MatrixXd::Zero(size, size);
+    Eigen::VectorXd variances(size);
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const DriftNode& node = drift_.node(drift_.begin() + static_cast<std::uint32_t>(k));
+      if (k > 0) from_rests.row(k) = transition(node) * from_rests.row(k - 1);
+      from_rests(k, k) = 1.0;
+      variances[k] = variance(node);
+    }
+    return from_rests * variances.asDiagonal() * from_rests.transpose();
+  }
+  Eigen::MatrixXd wandering_covariance() const {
+    return covariance_of_process(
+        [](const DriftNode& node) { return node.transition[0]; },
+        [&](const DriftNode& node) { return std::pow(drift_.position_scale(), 2) / node.information[0]; });
+  }
+  Eigen::MatrixXd ripple_covariance() const {
+    return covariance_of_process(
+        [](const DriftNode& node) { return node.ripple_transition; },
+        [&](const DriftNode& node) { return std::pow(drift_.position_scale(), 2) * node.ripple_innovation; });
+  }
+  Eigen::VectorXd position_prior_mean(int axis) const {
+    Eigen::VectorXd means(drift_.size());
+    double mean = 0.0;
+    for (Eigen::Index k = 0; k < means.size(); ++k) {
+      const DriftNode& node = drift_.node(drift_.begin() + static_cast<std::uint32_t>(k));
+      means[k] = mean = node.prior_mean[axis] + node.transition[axis] * mean;
+    }
+    return means;
+  }
+
   /// The same problem as one dense least-squares system over objects, spells, calibration and nodes, solved
   /// by QR.
   struct Dense {
@@ -206,12 +241,26 @@ class ArrowheadProblem : public ::testing::Test {
     }
     for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number) {
       const DriftNode& node = drift_.node(number);
-      for (int i = 0; i < kNodeSize; ++i) {
+      for (int i = 2; i < kNodeSize; ++i) {
         Eigen::RowVectorXd row = Eigen::RowVectorXd::Unit(size, node_column(number) + i);
         if (number != drift_.begin()) row[node_column(number - 1) + i] = -node.transition[i];
-        const double root = std::sqrt(node.information[i]) / (i < 2 ? drift_.position_scale() : 1.0);
+        const double root = std::sqrt(node.information[i]);
         rows.push_back(root * row);
         values.push_back(root * node.prior_mean[i]);
+      }
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::MatrixXd whitening = (wandering_covariance() + ripple_covariance())
+                                            .llt()
+                                            .matrixL()
+                                            .solve(Eigen::MatrixXd::Identity(nodes, nodes));
+      const Eigen::VectorXd means = whitening * position_prior_mean(axis);
+      for (Eigen::Index i = 0; i < nodes; ++i) {
+        Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(size);
+        for (Eigen::Index j = 0; j < nodes; ++j)
+          row[head + CalibrationIndex::kSize + kNodeSize * j + axis] = whitening(i, j);
+        rows.push_back(row);
+        values.push_back(means[i]);
       }
     }
     for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
@@ -272,6 +321,12 @@ class ArrowheadProblem : public ::testing::Test {
     config.node_spacing_s = 5.0;
     config.max_nodes = 36;
     return config;
+  }
+
+  static DriftConfig without_ripple() {
+    DriftConfig still = config();
+    still.ripple_share = 0.0;
+    return still;
   }
 
   DriftTimeline drift_{config()};
@@ -401,7 +456,10 @@ TEST_F(ArrowheadProblem, AFrozenComponentStaysWhereItIs) {
   EXPECT_LT(calibration_.sigma(CalibrationIndex::kLatency), 1e-6);
 }
 
+/// Where nothing ripples: what of a frozen node was ripple is not kept.
 TEST_F(ArrowheadProblem, FreezingANodeAtItsEstimateChangesNoEstimate) {
+  drift_ = DriftTimeline(without_ripple());
+  drift_.sway().set_variance(kSwayVariance_m2, kTurnVariance_rad2);
   make(4, 160, 40.0);
   solve();
   const CalibrationVector before = calibration_.mean;
@@ -413,10 +471,11 @@ TEST_F(ArrowheadProblem, FreezingANodeAtItsEstimateChangesNoEstimate) {
   EXPECT_LT((position_of(landmarks_[2], calibration_.mean, drift_) - position).norm(), 1e-8);
 }
 
-/// Spells one by one, then nodes that spells are tied to; and what is learnt then is what it was.
+/// Spells one by one, then nodes that spells are tied to; and what is learnt then is what it was. Nothing
+/// ripples.
 TEST_F(ArrowheadProblem, FreezingASpellAtItsEstimateChangesNoEstimate) {
   for (const double duration_s : {40.0, 3.9}) {
-    drift_ = DriftTimeline(config());
+    drift_ = DriftTimeline(without_ripple());
     drift_.sway().set_variance(kSwayVariance_m2, kTurnVariance_rad2);
     spells_drawn_ = 0;
     looks_.clear();
@@ -459,29 +518,32 @@ TEST_F(ArrowheadProblem, FrozenNodesAndSpellsAreThoseOfDenseLeastSquares) {
   expect_objects_of(solution, expected);
 }
 
-/// By its definition from the dense solution: the mean square of the nodes' steps, in units of the prior's.
+/// By its definition from the dense solution: the mean square of what the nodes differ by from what those
+/// before let expect, in units of the prior's.
 TEST_F(ArrowheadProblem, ObservedWanderingIsTheExpectedSquareOfTheSteps) {
   make(5, 300, 44.0);
   drift_.set_position_scale(0.7);
   const ArrowheadSolver::Solution solution = solve();
   const Dense expected = dense({0, 1, 2, 3, 4});
+  const Eigen::Index nodes = drift_.size();
+  const Eigen::MatrixXd covariance = wandering_covariance() + ripple_covariance();
   double sum = 0.0;
-  int count = 0;
-  for (std::uint32_t number = 1; number != drift_.end(); ++number) {
-    const DriftNode& node = drift_.node(number);
+  for (Eigen::Index i = 1; i < nodes; ++i) {
+    // Given the nodes before, node i is expected at `weights` times them, with the variance `rest`.
+    const Eigen::VectorXd cross = covariance.col(i).head(i);
+    const Eigen::VectorXd weights = covariance.topLeftCorner(i, i).ldlt().solve(cross);
+    const double rest = covariance(i, i) - cross.dot(weights);
     for (int axis = 0; axis < 2; ++axis) {
       Eigen::VectorXd step = Eigen::VectorXd::Zero(expected.solution.size());
-      const Eigen::Index at = expected.node_column(number) + axis;
-      step[at] = 1.0;
-      step[at - kNodeSize] = -node.transition[axis];
+      for (Eigen::Index j = 0; j <= i; ++j)
+        step[expected.node_column(static_cast<std::uint32_t>(j)) + axis] = j == i ? 1.0 : -weights[j];
       const double mean = step.dot(expected.solution), variance = step.dot(expected.covariance * step);
-      sum += (mean * mean + variance) * node.information[axis];
-      ++count;
+      sum += (mean * mean + variance) / rest;
     }
   }
   const auto observed = solution.observed_wandering(drift_);
   ASSERT_TRUE(observed);
-  EXPECT_NEAR(*observed, std::sqrt(sum / count), 1e-8);
+  EXPECT_NEAR(*observed, 0.7 * std::sqrt(sum / (2.0 * static_cast<double>(nodes - 1))), 1e-8);
 }
 
 TEST_F(ArrowheadProblem, ObservedWanderingNeedsEightNodes) {
@@ -492,8 +554,8 @@ TEST_F(ArrowheadProblem, ObservedWanderingNeedsEightNodes) {
   EXPECT_TRUE(solve().observed_wandering(drift_));
 }
 
-/// Looks from a vehicle whose position wanders by a Gauss-Markov process of known strength, two objects in
-/// view at any time and each for a minute.
+/// Looks from a vehicle whose position wanders and ripples by Gauss-Markov processes of known strength, two
+/// objects in view at any time and each for a minute.
 TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
   constexpr int kNodes = 150, kNodesInView = 12;
   constexpr double kNoise_m = 0.02;
@@ -510,11 +572,15 @@ TEST(ObservedWandering, ConvergesOnTheStrengthOfASimulatedProcess) {
     Landmark unseen;
     unseen.add_prior(on_the_ground());
     std::vector<Landmark> landmarks(2 + 2 * kNodes / kNodesInView, unseen);
-    const double sigma_m = strength * kWanderSigma_m;
+    const double sigma_m = strength * std::sqrt(1.0 - config.ripple_share) * kWanderSigma_m;
+    const double ripple_m = strength * std::sqrt(config.ripple_share) * kWanderSigma_m;
     const double kept = std::exp(-config.node_spacing_s / config.position_time_constant_s);
-    Eigen::Vector2d before = sigma_m * drawn();
+    const double ripple_kept = std::exp(-config.node_spacing_s / config.ripple_time_constant_s);
+    Eigen::Vector2d wandering = sigma_m * drawn(), ripple = ripple_m * drawn(), before = wandering + ripple;
     for (int node = 0; node + 1 < kNodes; ++node) {
-      const Eigen::Vector2d after = kept * before + sigma_m * std::sqrt(1.0 - kept * kept) * drawn();
+      wandering = kept * wandering + sigma_m * std::sqrt(1.0 - kept * kept) * drawn();
+      ripple = ripple_kept * ripple + ripple_m * std::sqrt(1.0 - ripple_kept * ripple_kept) * drawn();
+      const Eigen::Vector2d after = wandering + ripple;
       for (int i = 0; i < 10; ++i) {
         LandmarkObservation look;
         const double time_s = config.node_spacing_s * (node + 0.05 + 0.1 * i);

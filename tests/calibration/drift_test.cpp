@@ -36,7 +36,20 @@ double time_constant_of(const DriftConfig& config, int i) {
   return i == kUp ? config.up_time_constant_s : config.yaw_time_constant_s;
 }
 
-/// What five seconds leave of each component.
+/// Shares of the variance that wander and ripple: of the height and the yaw all wanders.
+double wandering_share_of(const DriftConfig& config, int i) {
+  return i < 2 ? 1.0 - config.ripple_share : 1.0;
+}
+
+/// Covariance of a component at two times so far apart, in the state in which it has wandered for ever.
+double covariance_of(const DriftConfig& config, int i, double apart_s) {
+  const double share = wandering_share_of(config, i);
+  return std::pow(sigma_of(config, i), 2) *
+         (share * std::exp(-std::abs(apart_s) / time_constant_of(config, i)) +
+          (1.0 - share) * std::exp(-std::abs(apart_s) / config.ripple_time_constant_s));
+}
+
+/// What five seconds leave of each component's wandering.
 NodeVector kept_of(const DriftConfig& config) {
   NodeVector kept;
   for (int i = 0; i < kNodeSize; ++i) kept[i] = std::exp(-5.0 / time_constant_of(config, i));
@@ -64,6 +77,20 @@ double time_of(const DriftTimeline& drift, std::uint32_t number) {
   return seconds(drift.node(number).time.time_since_epoch());
 }
 
+/// Covariance of all nodes' ripple, by its definition as below.
+Eigen::MatrixXd ripple_covariance_of(const DriftTimeline& drift) {
+  const Eigen::Index size = drift.size();
+  Eigen::MatrixXd from_rests = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd variance(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const auto number = drift.begin() + static_cast<std::uint32_t>(k);
+    if (k > 0) from_rests.row(k) = drift.node(number).ripple_transition * from_rests.row(k - 1);
+    from_rests(k, k) = 1.0;
+    variance[k] = drift.ripple_variance(number);
+  }
+  return from_rests * variance.asDiagonal() * from_rests.transpose();
+}
+
 /// Covariance of all nodes' component `i` by the definition of the prior: each is transition times the one
 /// before and an independent rest of variance 1 / information.
 Eigen::MatrixXd prior_covariance_of(const DriftTimeline& drift, int i) {
@@ -76,24 +103,24 @@ Eigen::MatrixXd prior_covariance_of(const DriftTimeline& drift, int i) {
     from_rests(k, k) = 1.0;
     variance[k] = 1.0 / drift.information(number)[i];
   }
-  return from_rests * variance.asDiagonal() * from_rests.transpose();
+  const Eigen::MatrixXd wandering = from_rests * variance.asDiagonal() * from_rests.transpose();
+  return i < 2 ? Eigen::MatrixXd(wandering + ripple_covariance_of(drift)) : wandering;
 }
 
-/// A stationary first-order Gauss-Markov process: sigma^2 exp(-|t1 - t2| / time constant), at any spacing.
-TEST(DriftTimeline, WandersAsAStationaryGaussMarkovProcess) {
+/// Stationary first-order Gauss-Markov processes, sigma^2 exp(-|t1 - t2| / time constant), at any spacing;
+/// the position is the sum of two.
+TEST(DriftTimeline, WandersAsStationaryGaussMarkovProcesses) {
   DriftConfig config = distinct_config();
   config.node_spacing_s = 4.0;
   DriftTimeline drift(config);
   for (const double time_s : {10.0, 13.0, 15.0, 21.0, 60.0, 63.0, 66.0}) cover(drift, time_s);
   for (int i = 0; i < kNodeSize; ++i) {
-    const double sigma = sigma_of(config, i), constant_s = time_constant_of(config, i);
     const Eigen::MatrixXd covariance = prior_covariance_of(drift, i);
     for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
       for (Eigen::Index b = 0; b < covariance.cols(); ++b) {
         const double apart_s =
             time_of(drift, static_cast<std::uint32_t>(a)) - time_of(drift, static_cast<std::uint32_t>(b));
-        EXPECT_NEAR(covariance(a, b), sigma * sigma * std::exp(-std::abs(apart_s) / constant_s),
-                    1e-12 * sigma * sigma);
+        EXPECT_NEAR(covariance(a, b), covariance_of(config, i, apart_s), 1e-12);
       }
     }
   }
@@ -209,7 +236,8 @@ TEST(DriftTimeline, BeginsAnewWhenTheClockRunsBack) {
   EXPECT_EQ(drift.node(span.first).transition, NodeVector(NodeVector::Zero()));
   EXPECT_EQ(drift.node(span.first).mean, NodeVector(NodeVector::Zero()));
   for (int i = 0; i < kNodeSize; ++i)
-    EXPECT_NEAR(1.0 / drift.node(span.first).information[i], std::pow(sigma_of(DriftConfig{}, i), 2), 1e-12);
+    EXPECT_NEAR(1.0 / drift.node(span.first).information[i],
+                wandering_share_of(DriftConfig{}, i) * std::pow(sigma_of(DriftConfig{}, i), 2), 1e-12);
   EXPECT_EQ(time_of(drift, span.first), 3.0);
   EXPECT_EQ(drift.size(), 4);
 }
@@ -228,9 +256,11 @@ TEST(DriftTimeline, GoesOnFromTheValueThatANodeIsFrozenAt) {
   const NodeVector kept = kept_of(config);
   EXPECT_LT((drift.node(1).prior_mean - kept.cwiseProduct(frozen)).norm(), 1e-12);
   for (int i = 0; i < kNodeSize; ++i) {
-    const double variance = std::pow(sigma_of(config, i), 2) * (1.0 - kept[i] * kept[i]);
+    const double share = wandering_share_of(config, i), sigma2 = std::pow(sigma_of(config, i), 2);
+    const double variance = share * sigma2 * (1.0 - kept[i] * kept[i]);
+    const double ripple = (1.0 - share) * sigma2 * (1.0 - std::exp(-10.0 / config.ripple_time_constant_s));
     EXPECT_NEAR(1.0 / drift.information(1)[i], variance, 1e-12);
-    EXPECT_NEAR(prior_covariance_of(drift, i)(0, 0), variance, 1e-12);
+    EXPECT_NEAR(prior_covariance_of(drift, i)(0, 0), variance + ripple, 1e-12);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
 #include "support/nadir_flight.hpp"
+#include "support/wandering.hpp"
 
 namespace geoloc {
 namespace {
@@ -477,13 +478,10 @@ double learnt_strength(double strength, unsigned seed, double duration_s = 180.0
   const JointTrackerConfig joint;
   const double prior_m = std::sqrt(0.5 * (1.0 - joint.constant_share)) * joint.horizontal_accuracy_m;
   const double sigma_m = strength * prior_m, step_s = 0.1;
-  const double kept = std::exp(-step_s / joint.drift.position_time_constant_s);
   std::mt19937 random(seed);
-  std::normal_distribution<double> normal;
-  std::vector<Eigen::Vector2d> wandered{sigma_m * Eigen::Vector2d(normal(random), normal(random))};
-  for (int i = 0; i < 2000; ++i)
-    wandered.emplace_back(kept * wandered.back() + sigma_m * std::sqrt(1.0 - kept * kept) *
-                                                       Eigen::Vector2d(normal(random), normal(random)));
+  testing::WanderingPosition wandering(joint.drift, sigma_m, step_s);
+  std::vector<Eigen::Vector2d> wandered;
+  for (int i = 0; i <= 2000; ++i) wandered.push_back(wandering.next(random));
   const testing::Path reported = [](double time_s) {
     const double turned = std::fmod(time_s, 20.0);
     return Pose{{0.0, 3.0 * (turned < 10.0 ? turned : 20.0 - turned), kHeight_m}, 0.0, 0.0, 0.0};

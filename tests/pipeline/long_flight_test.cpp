@@ -14,6 +14,7 @@
 #include "support/allocation_counter.hpp"
 #include "support/map_laws.hpp"
 #include "support/nadir_flight.hpp"
+#include "support/wandering.hpp"
 
 namespace geoloc {
 namespace {
@@ -67,21 +68,15 @@ Pose as_planned(double time_s, double length_s) {
   return {{0.0, north_m, 20.0}, 0.02 * std::sin(0.7 * time_s), 0.02 * std::cos(0.5 * time_s), 0.0};
 }
 
-/// What the receiver's position is off by: a first-order Gauss-Markov process, as strong as it reports.
+/// What the receiver's position is off by, as strong as it reports.
 class Wandering {
  public:
   Wandering(double length_s, unsigned seed) {
     const JointTrackerConfig joint;
     const double sigma_m = std::sqrt(0.5 * (1.0 - joint.constant_share)) * joint.horizontal_accuracy_m;
-    const double kept = std::exp(-0.1 / joint.drift.position_time_constant_s);
     std::mt19937 random(seed);
-    std::normal_distribution<double> normal;
-    Eigen::Vector2d now = sigma_m * Eigen::Vector2d(normal(random), normal(random));
-    for (int i = 0; i < 10.0 * (length_s + 10.0); ++i) {
-      off_m_.push_back(now);
-      const double east = normal(random), north = normal(random);
-      now = kept * now + sigma_m * std::sqrt(1.0 - kept * kept) * Eigen::Vector2d(east, north);
-    }
+    testing::WanderingPosition wandering(joint.drift, sigma_m, 0.1);
+    for (int i = 0; i < 10.0 * (length_s + 10.0); ++i) off_m_.push_back(wandering.next(random));
   }
 
   Eigen::Vector2d at(double time_s) const {

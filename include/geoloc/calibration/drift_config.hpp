@@ -11,7 +11,9 @@ namespace geoloc {
 /// between, with a first-order Gauss-Markov prior from node to node.
 struct DriftConfig {
   double node_spacing_s = 3.0;
-  double position_time_constant_s = 30.0;
+  double position_time_constant_s = 100.0;
+  double ripple_share = 0.2;  ///< of the variance of the position's drift: lasts for seconds only
+  double ripple_time_constant_s = 3.0;
   double up_time_constant_s = 30.0;
   double sigma_up_m = 0.2;
   double yaw_time_constant_s = 60.0;

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "calibration/position_prior.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+namespace geoloc {
+
+PositionPrior::PositionPrior(Eigen::Index max_nodes) : mean_(Eigen::VectorXd::Zero(max_nodes)) {
+  for (Matrix* const matrix : {&root_, &whitening_, &information_}) matrix->setZero(max_nodes, max_nodes);
+}
+
+void PositionPrior::form(const DriftTimeline& drift, int component) {
+  size_ = drift.size();
+  set_covariance(drift, component);
+  invert();
+}
+
+/// A process' covariance with a later node is its variance here, times the transitions until then.
+void PositionPrior::set_covariance(const DriftTimeline& drift, int component) {
+  const auto node = [&](Eigen::Index i) -> const DriftNode& {
+    return drift.node(drift.begin() + static_cast<std::uint32_t>(i));
+  };
+  double mean = 0.0, wandering = 0.0, ripple = 0.0;  // of the node before; variances
+  for (Eigen::Index i = 0; i < size_; ++i) {
+    const auto number = drift.begin() + static_cast<std::uint32_t>(i);
+    const double kept = node(i).transition[component], kept_ripple = node(i).ripple_transition;
+    mean = node(i).prior_mean[component] + kept * mean;
+    wandering = kept * kept * wandering + 1.0 / drift.information(number)[component];
+    ripple = kept_ripple * kept_ripple * ripple + drift.ripple_variance(number);
+    mean_[i] = mean;
+    root_(i, i) = wandering + ripple;
+    double of_wandering = wandering, of_ripple = ripple;
+    for (Eigen::Index j = i + 1; j < size_; ++j) {
+      of_wandering *= node(j).transition[component];
+      of_ripple *= node(j).ripple_transition;
+      root_(j, i) = of_wandering + of_ripple;
+    }
+  }
+}
+
+void PositionPrior::invert() {
+  for (Eigen::Index i = 0; i < size_; ++i) {
+    for (Eigen::Index j = 0; j < i; ++j)
+      root_(i, j) = (root_(i, j) - root_.row(i).head(j).dot(root_.row(j).head(j))) / root_(j, j);
+    root_(i, i) = std::sqrt(root_(i, i) - root_.row(i).head(i).squaredNorm());
+    auto row = whitening_.row(i).head(size_);
+    row.setZero();
+    for (Eigen::Index j = 0; j < i; ++j) row.head(j + 1) -= root_(i, j) * whitening_.row(j).head(j + 1);
+    row[i] = 1.0;
+    row /= root_(i, i);
+  }
+  const auto whitening = whitening_.topLeftCorner(size_, size_);
+  information_.topLeftCorner(size_, size_) = whitening.transpose().lazyProduct(whitening);
+}
+
+}  // namespace geoloc

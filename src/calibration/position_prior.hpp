@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "calibration/drift.hpp"
+
+namespace geoloc {
+
+/// What is expected of the nodes' east or north: the sum of two Gauss-Markov processes, wandering and ripple,
+/// which is none itself. So each node depends on all the others, and the information is a full matrix. Never
+/// allocates after construction.
+class PositionPrior {
+ public:
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+  explicit PositionPrior(Eigen::Index max_nodes);
+
+  /// Of component 0 (east) or 1 (north), for the nodes that are estimated.
+  void form(const DriftTimeline& drift, int component);
+
+  Eigen::Index size() const { return size_; }
+  double mean(Eigen::Index node) const { return mean_[node]; }
+
+  /// Of the inverse covariance [1/m^2].
+  double information(Eigen::Index row, Eigen::Index column) const { return information_(row, column); }
+
+  /// W = L^-1, where L L' is the covariance: row i tells in sigmas by how much node i differs from what those
+  /// before it let expect. The lower triangle.
+  double whitening(Eigen::Index row, Eigen::Index column) const { return whitening_(row, column); }
+
+ private:
+  void set_covariance(const DriftTimeline& drift, int component);
+  void invert();
+
+  Eigen::Index size_ = 0;
+  Eigen::VectorXd mean_;
+  Matrix root_;  // lower triangle of the covariance, then L
+  Matrix whitening_;
+  Matrix information_;
+};
+
+}  // namespace geoloc
