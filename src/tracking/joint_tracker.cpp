@@ -522,7 +522,9 @@ void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
 }
 
 /// A surveyed object's coordinates are information on its position, and through the head on all others'. True
-/// where there is some that the solution does not have.
+/// where there is some that the solution does not have. The first point tells what the position is off by,
+/// and for it that is taken to be no less than the receiver states: that its error wanders little does not
+/// show how large it is.
 bool JointTracker::match_known_points(const Solution& solution, const FrameNoise& noise) {
   if (known_points_.is_empty()) return false;
   known_candidates_.clear();
@@ -538,7 +540,9 @@ bool JointTracker::match_known_points(const Solution& solution, const FrameNoise
   }
   if (known_candidates_.empty()) return false;
   const auto count = static_cast<double>(known_candidates_.size());
-  const double shared_variance = std::max(0.0, (variance - own_variance) / count);
+  double shared_variance = std::max(0.0, (variance - own_variance) / count);
+  if (!known_points_.has_matched())
+    shared_variance = std::max(shared_variance, 0.5 * std::pow(errors_.accuracy.changing_m(), 2));
   const KnownPointMatcher::Sigma sigma{std::sqrt(shared_variance), std::sqrt(own_variance / count)};
   if (!known_points_.match(known_candidates_, sigma, config_.gate, config_.ambiguity)) return false;
   for (RestingObject& object : tracks_) {

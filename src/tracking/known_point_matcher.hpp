@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -54,6 +55,13 @@ class KnownPointMatcher {
   KnownPointMatcher(std::vector<KnownPoint> points, int max_tracks);
 
   bool is_empty() const { return points_.empty(); }
+
+  /// Whether the object of any point is known.
+  bool has_matched() const {
+    return std::any_of(matches_.begin(), matches_.end(), [](const KnownPointMatch& match) {
+      return match.status == KnownPointStatus::kMatched;
+    });
+  }
 
   /// Notes the points that a frame covers. `is_covered(point_in_enu)` tells whether the camera looks at a
   /// place on the ground and away from the image's edge; an object there is found with that probability.
