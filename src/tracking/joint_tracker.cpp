@@ -7,6 +7,7 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "tracking/false_looks.hpp"
 #include "tracking/gaussian.hpp"
 #include "tracking/ground_prior.hpp"
 #include "tracking/head_bound.hpp"
@@ -271,7 +272,11 @@ void JointTracker::go_on_with_latency(const LatencyPrior& latency, const Located
   recent_looks_.take_out(proven_at_ + Duration{1}, errors_.drift, tracks_);
   if (const auto before = solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_))
     errors_.take(*before);
-  for (RestingObject& track : tracks_) track.landmark->freeze_latency(errors_.calibration.latency_s());
+  for (RestingObject& track : tracks_) {
+    track.landmark->freeze_latency(errors_.calibration.latency_s());
+    track.first_look.reset();
+    track.height_look.reset();
+  }
   errors_.begin_latency(latency);
   bound_height(frame.projector, frame.view);
   const NodeSpan newest{errors_.drift.end() - 2, 0.0};
@@ -359,6 +364,8 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
                                   const JointFrame& frame) {
   const std::vector<Look>& looks = frame_looks.at_rest;
   const double found = detection_rate_.probability();
+  const double birth = clutter_rate_.birth_probability(config_.birth_probability);
+  const FalseOdds false_odds{(1.0 - birth) / birth, clutter_rate_.per_frame() / found};
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const JointAssociation::Match& match = explanation.match_of_look[i];
     if (!match.is_certain()) continue;
@@ -370,6 +377,7 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
     look.observation =
         look_maker_.linearised_at(track.position_in_enu, look, frame_looks.share_attitude, frame, errors_);
     add_to_sums(track, look, errors_);
+    clutter_rate_.count_false(drop_false_looks(track, look, false_odds, errors_));
     opening_looks_.add(track.track.id, looks[i].detection);
     recent_looks_.add(track.track.id, frame.time(), look);
     confirm_if_probable(track, config_.confirm_probability);
