@@ -177,8 +177,19 @@ FrameNoise JointTracker::noise_of(const FrameLooks& looks, const JointFrame& fra
   return {looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
 }
 
+/// Of confidences that objects have n times as often, false boxes are n times as rare.
+void JointTracker::weigh_confidence(FrameLooks& looks) const {
+  for (std::vector<Look>* kind : {&looks.at_rest, &looks.moving}) {
+    for (Look& look : *kind) {
+      look.confidence_ratio = confidence_.ratio(look.detection.confidence);
+      look.clutter_density /= look.confidence_ratio;
+    }
+  }
+}
+
 void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  weigh_confidence(looks);
   place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
   errors_.is_opening = opening_looks_.is_open();
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
@@ -381,6 +392,7 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
     opening_looks_.add(track.track.id, looks[i].detection);
     recent_looks_.add(track.track.id, frame.time(), look);
     confirm_if_probable(track, config_.confirm_probability);
+    if (track.is_confirmed()) confidence_.count_object(looks[i].detection.confidence);
   }
 }
 
@@ -395,7 +407,7 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
       continue;
     }
     RestingObject& track = tracks_.append();
-    begin_object(track, clutter_rate_.birth_probability(config_.birth_probability),
+    begin_object(track, looks[i], clutter_rate_.birth_probability(config_.birth_probability),
                  frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
     const Point place = ground_point(looks[i], ground, max_range_m);
@@ -414,7 +426,10 @@ void JointTracker::remove_improbable() {
     track.existence = tracks_[k].existence.probability();
     retract_if_improbable(tracks_[k]);
     if (*track.existence >= config_.delete_probability) continue;
-    if (!tracks_[k].was_confirmed) clutter_rate_.count_false(track.hits);
+    if (!tracks_[k].was_confirmed) {
+      clutter_rate_.count_false(track.hits);
+      confidence_.count_false(tracks_[k].confidences);
+    }
     remove(k);
   }
 }
