@@ -44,7 +44,7 @@ io::CameraView camera_view(const Geolocator& geolocator, HostTime captured_at) {
   io::CameraView view;
   view.captured_at = captured_at;
   view.time = geolocator.view().vehicle.time;
-  view.focal_px = geolocator.view().focal_px;
+  view.focal_px = geolocator.projector().focal_px(geolocator.view());
   view.camera = frame.to_geodetic(enu_from_camera.translation.head<2>());
   if (const auto home_height_msl_m = geolocator.state().home_height_msl_m()) {
     const double home_in_view_msl_m = *home_height_msl_m - geolocator.view().lifted_m;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <variant>
 
 #include "geoloc/io/mavlink/camera_news.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
+#include "geoloc/io/mavlink/messages.hpp"
 
 namespace geoloc::apps {
 namespace {
@@ -73,6 +75,17 @@ LogTimes times_of(const io::Tlog& telemetry) {
   times.begins_at = first->received_at;
   times.length = last->received_at - first->received_at;
   return times;
+}
+
+bool tells_gimbal(const io::Tlog& telemetry) {
+  io::FrameParser parser;
+  for (const io::TlogRecord& record : telemetry.records()) {
+    parser.append(record.frame, record.size);
+    while (const auto frame = parser.next()) {
+      if (std::holds_alternative<io::GimbalMessage>(io::decode(*frame))) return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace geoloc::apps

@@ -10,4 +10,7 @@ namespace geoloc::apps {
 /// Times are the log's stamps. The log must not be empty.
 LogTimes times_of(const io::Tlog& telemetry);
 
+/// Whether it has the angles of a gimbal.
+bool tells_gimbal(const io::Tlog& telemetry);
+
 }  // namespace geoloc::apps

@@ -45,6 +45,7 @@ Parse parser_for(const std::filesystem::path& file) {
 LogSource as_it_is(const std::filesystem::path& file) {
   LogSource source;
   source.telemetry = io::read_tlog(file);
+  source.telemetry_has_gimbal = tells_gimbal(*source.telemetry);
   source.times = times_of(*source.telemetry);
   source.begins_at = *source.times.begins_at;
   return source;

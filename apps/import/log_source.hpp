@@ -17,9 +17,12 @@ namespace geoloc::apps {
 struct LogSource {
   std::optional<FlightTrack> track;
   std::optional<io::Tlog> telemetry;  ///< a MAVLink log, which goes into the recording as it is
+  bool telemetry_has_gimbal = false;  ///< its messages tell a gimbal's angles
   LogTimes times;
   HostTime begins_at;                                ///< on the clock of the recording
   std::vector<io::LoggedFocalLength> focal_lengths;  ///< as FlightLog's
+
+  bool has_gimbal() const { return telemetry_has_gimbal || (track && !track->gimbal.empty()); }
 };
 
 /// The format is told by the name's extension. Throws std::runtime_error naming file and fault.

@@ -51,11 +51,20 @@ std::string work_of(const VideoOptions& options, const io::DetectionConfig& conf
 void refuse_gimbal_without_angles(const CameraConfig& camera, const LogSource& log,
                                   const VideoOptions& options) {
   if (camera.mount.kind != MountKind::kGimbal || !log.track) return;
-  if (!log.track->gimbal.empty() || !log.track->assumed_gimbal.empty()) return;
+  if (log.has_gimbal() || !log.track->assumed_gimbal.empty()) return;
   throw std::runtime_error(fmt::format(
       "{}: the mount is of kind gimbal, and {} has no angles of one: give --gimbal-pitch-deg, the "
       "pitch that it held, or the mount of a camera that is fixed",
       options.camera_file, options.log));
+}
+
+/// Where a log has the angles of a gimbal, the camera is taken to be on it.
+void note_gimbal(const CameraConfig& camera, const LogSource& log, std::vector<std::string>& assumptions) {
+  if (camera.mount.kind == MountKind::kGimbal || !log.has_gimbal()) return;
+  assumptions.emplace_back(
+      "the log has the angles of a gimbal: the camera is taken to be on it, whatever angles the mount of "
+      "--camera has "
+      "(\"kind\": \"gimbal\" there says that they are the camera's in the gimbal)");
 }
 
 /// Everything that can be wrong before the first frame is looked at is found while this is made.
@@ -68,6 +77,7 @@ struct VideoProgram {
       take_log(read_log(options.log, facts_of(options)));
     if (stop.is_requested()) return;
     refuse_gimbal_without_angles(camera.config, log, options);
+    if (!told) note_gimbal(camera.config, log, assumptions);
     source.labels = labels_in(options.labels_file);
     open_detector_unless_labelled(options.detector, options.tuning, source);
     const std::string work = source.detector ? work_of(options, source.config) : std::string{};

@@ -111,7 +111,7 @@ void write_telemetry(const LogSource& log, io::RecordingWriter& writer) {
 std::size_t write_video_flight(const VideoFlight& flight, io::RecordingWriter& writer) {
   const LogSource& log = flight.log;
   CameraConfig camera = flight.camera.config;
-  if (log.track && !log.track->gimbal.empty()) camera.mount = told_mount(camera.mount);
+  if (log.has_gimbal()) camera.mount = told_mount(camera.mount);
   if (log.track && !log.track->assumed_gimbal.empty()) camera.mount.kind = MountKind::kFixed;
   writer.write_camera(camera);
   writer.write_config(settings_for(flight).dump(2));

@@ -25,6 +25,12 @@ CLI::Option* add_record_options(CLI::App& program, RecordOptions& options) {
   add("--miss-rate", detector.miss_rate, "Share of the visible targets not found")->capture_default_str();
   add("--clutter-rate", detector.clutter_rate, "Mean number of false boxes in a frame")
       ->capture_default_str();
+  add("--confidence", detector.confidence, "Of targets that are found, the least and the most")
+      ->delimiter(',')
+      ->capture_default_str();
+  add("--clutter-confidence", detector.clutter_confidence, "Of false boxes")
+      ->delimiter(',')
+      ->capture_default_str();
   add("--target-size-m", detector.target_size_m, "Diameter of a target, m")->capture_default_str();
   add("--min-visible-fraction", detector.min_visible_fraction, "Of a box that is found, in the image")
       ->capture_default_str();

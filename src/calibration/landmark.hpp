@@ -49,11 +49,16 @@ struct LandmarkObservation {
     return jacobian;
   }
 
-  /// What it adds to an object's A x (Landmark::weighted_position).
-  Point weighted_position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
+  /// What H x is by this look alone.
+  Eigen::Vector2d seen(const CalibrationVector& calibration, const DriftTimeline& drift) const {
     Eigen::Vector2d seen = value + calibration_jacobian * calibration + node_jacobian * drift.at(span);
     if (span.spell != kNoSpell) seen += sway_jacobian() * drift.sway().spell(span.spell).mean;
-    return point_jacobian().transpose() * (information * seen);
+    return seen;
+  }
+
+  /// What it adds to an object's A x (Landmark::weighted_position).
+  Point weighted_position(const CalibrationVector& calibration, const DriftTimeline& drift) const {
+    return point_jacobian().transpose() * (information * seen(calibration, drift));
   }
 
   /// H.

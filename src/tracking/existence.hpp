@@ -17,6 +17,9 @@ class Existence {
     add(std::log(detection_probability * likelihood / clutter_density));
   }
 
+  /// Something else than looks tells that it is so many times as probable.
+  void weigh(double likelihood_ratio) { add(std::log(likelihood_ratio)); }
+
   /// Not found, though it would have been with this probability.
   void miss(double detection_probability) { add(std::log(1.0 - detection_probability)); }
 

@@ -7,6 +7,7 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "tracking/false_looks.hpp"
 #include "tracking/gaussian.hpp"
 #include "tracking/ground_prior.hpp"
 #include "tracking/head_bound.hpp"
@@ -199,8 +200,19 @@ FrameNoise JointTracker::noise_of(const FrameLooks& looks, const JointFrame& fra
   return {looks.frame_noise, frame.repetition.of_position, config_.fast_time_constant_s};
 }
 
+/// Of confidences that objects have n times as often, false boxes are n times as rare.
+void JointTracker::weigh_confidence(FrameLooks& looks) const {
+  for (std::vector<Look>* kind : {&looks.at_rest, &looks.moving}) {
+    for (Look& look : *kind) {
+      look.confidence_ratio = confidence_.ratio(look.detection.confidence);
+      look.clutter_density /= look.confidence_ratio;
+    }
+  }
+}
+
 void JointTracker::learn(const LocatedFrame& located, const JointFrame& frame) {
   FrameLooks& looks = look_maker_.make(located.detections, frame, errors_);
+  weigh_confidence(looks);
   place_on_ground(looks.moving, located.ground, located.projector.config().max_range_m);
   errors_.is_opening = opening_looks_.is_open();
   opening_looks_.begin_frame(located.stamp, frame, looks.share_attitude);
@@ -303,7 +315,11 @@ void JointTracker::go_on_with_latency(const LatencyPrior& latency, const Located
   if (const auto before =
           solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_, &sleeping_.settled()))
     errors_.take(*before);
-  for (RestingObject& track : tracks_) track.landmark->freeze_latency(errors_.calibration.latency_s());
+  for (RestingObject& track : tracks_) {
+    track.landmark->freeze_latency(errors_.calibration.latency_s());
+    track.first_look.reset();
+    track.height_look.reset();
+  }
   sleeping_.freeze_latency(errors_.calibration.latency_s());
   errors_.begin_latency(latency);
   bound_height(frame.projector, frame.view);
@@ -393,6 +409,8 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
                                   const JointFrame& frame) {
   const std::vector<Look>& looks = frame_looks.at_rest;
   const double found = detection_rate_.probability();
+  const double birth = clutter_rate_.birth_probability(config_.birth_probability);
+  const FalseOdds false_odds{(1.0 - birth) / birth, clutter_rate_.per_frame() / found};
   for (std::size_t i = 0; i < looks.size(); ++i) {
     const JointAssociation::Match& match = explanation.match_of_look[i];
     if (!match.is_certain()) continue;
@@ -404,9 +422,11 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
     look.observation =
         look_maker_.linearised_at(track.position_in_enu, look, frame_looks.share_attitude, frame, errors_);
     add_to_sums(track, look, errors_);
+    clutter_rate_.count_false(drop_false_looks(track, look, false_odds, errors_));
     opening_looks_.add(track.track.id, looks[i].detection);
     recent_looks_.add(track.track.id, frame.time(), look);
     confirm_if_probable(track, config_.confirm_probability);
+    if (track.is_confirmed()) confidence_.count_object(looks[i].detection.confidence);
   }
 }
 
@@ -422,7 +442,7 @@ void JointTracker::begin_tentative(const std::vector<Look>& looks, const Explana
     }
     RestingObject& track = tracks_.append();
     sleeping_.reserve(tracks_.size() + sleeping_.size());
-    begin_object(track, clutter_rate_.birth_probability(config_.birth_probability),
+    begin_object(track, looks[i], clutter_rate_.birth_probability(config_.birth_probability),
                  frame.view.captured_at_host, book_);
     record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
     const Point place = ground_point(looks[i], ground, max_range_m);
@@ -441,7 +461,10 @@ void JointTracker::remove_improbable() {
     track.existence = tracks_[k].existence.probability();
     retract_if_improbable(tracks_[k]);
     if (*track.existence >= config_.delete_probability) continue;
-    if (!tracks_[k].was_confirmed) clutter_rate_.count_false(track.hits);
+    if (!tracks_[k].was_confirmed) {
+      clutter_rate_.count_false(track.hits);
+      confidence_.count_false(tracks_[k].confidences);
+    }
     remove(k);
   }
 }

@@ -10,6 +10,7 @@
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "tracking/clock_watch.hpp"
 #include "tracking/clutter_rate.hpp"
+#include "tracking/confidence_evidence.hpp"
 #include "tracking/detection_rate.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/known_point_matcher.hpp"
@@ -64,6 +65,7 @@ class JointTracker final : public Tracker {
   JointFrame begin_frame(const LocatedFrame& frame);
   void learn_noise(const std::vector<Look>& looks, const Explanation& explanation);
   void learn(const LocatedFrame& located, const JointFrame& frame);
+  void weigh_confidence(FrameLooks& looks) const;
   bool is_turned(const LocatedFrame& located, const JointFrame& frame);
   FrameFit fit(const LocatedFrame& located, const JointFrame& frame);
   FrameShift shift_of(const JointFrame& frame, const Explanation& explanation) const;
@@ -107,6 +109,7 @@ class JointTracker final : public Tracker {
   LookMatcher look_matcher_;
   DetectionRate detection_rate_;
   ClutterRate clutter_rate_;
+  ConfidenceEvidence confidence_;
   KnownPointMatcher known_points_;
   TrackTable tracks_;
   OpeningLooks opening_looks_;

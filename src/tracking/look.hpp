@@ -41,7 +41,8 @@ struct Look {
   double terrain_m = 0.0;  ///< height of `position` above the level ground
   double camera_height_m = std::numeric_limits<double>::infinity();  ///< above `position`
   double one_per_image = 0.0;    ///< density of one point in an image, on the ground there [1/m^2]
-  double clutter_density = 0.0;  ///< false boxes per frame and area [1/m^2]
+  double clutter_density = 0.0;  ///< false boxes of such a confidence per frame and area [1/m^2], by objects'
+  double confidence_ratio = 1.0;  ///< how much more often objects have it than false boxes do
   double ground_per_pixel_m = 0.0;
   double size_m = 0.0;
 };

@@ -115,7 +115,7 @@ void MovingTracker::begin(const Look& look, const Context& context, TrackBook& b
     return;
   }
   MovingObject& object = objects_.emplace_back();
-  begin_object(object, config_.birth_probability, context.frame.view.captured_at_host, book);
+  begin_object(object, look, config_.birth_probability, context.frame.view.captured_at_host, book);
   record_look(object, look, context.frame.time(), context.frame.view.captured_at_host);
   object.height_m = look.terrain_m;
   object.motion = ConstantVelocity::at(look.position, noise_against(look, lasting(look.jacobian)),

@@ -12,8 +12,7 @@ constexpr std::size_t kMostSightings = 1000;
 /// where it was, for its next look or for being missed: sums of nothing would leave no solution.
 void keep_in_place_without_looks(RestingObject& object) {
   constexpr double kSigma_m = 10.0;
-  const bool has_looks = (object.pixel_information - object.prior.matrix).trace() > 0.0;
-  if (has_looks) return;
+  if (has_looks(object)) return;
   PointInformation about_here;
   about_here.matrix = PointMatrix::Identity() / (kSigma_m * kSigma_m);
   about_here.vector = about_here.matrix * object.position_in_enu;

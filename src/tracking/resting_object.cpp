@@ -36,6 +36,11 @@ void settle(RestingObject& object, const SharedErrorEstimate& errors, const Node
   object.track.position_in_enu.mean = object.position_in_enu.head<2>();
 }
 
+DecisiveLook decisive(const Look& look, const RestingObject& object) {
+  return {look.observation, look.pixel_noise + look.frame_noise, look.pixel_noise, look.one_per_image,
+          object.track.hits};
+}
+
 }  // namespace
 
 void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now) {
@@ -48,9 +53,16 @@ void clear_sums(RestingObject& object) {
   object.landmark->add_prior(object.prior);
   object.pixel_information = object.prior.matrix;
   object.weighted_position = object.prior.vector;
+  object.first_look.reset();
+  object.height_look.reset();
+}
+
+bool has_looks(const RestingObject& object) {
+  return (object.pixel_information - object.prior.matrix).trace() > 0.0;
 }
 
 void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift) {
+  if (!has_looks(object)) object.first_look = decisive(look, object);
   object.landmark->add(look.observation, drift);
   object.pixel_information += pixel_information_of(look.observation, look.pixel_noise);
 }
@@ -64,9 +76,13 @@ void take_out_look(RestingObject& object, const LandmarkObservation& observation
 }
 
 void add_to_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors) {
+  constexpr double kMuchLess = 0.25;
+  const double height_variance_before = object.own_covariance(2, 2);
   add_look(object, look, errors.drift);
   object.weighted_position += look.observation.weighted_position(errors.calibration.mean, errors.drift);
   settle(object, errors, look.observation.span);
+  if (object.own_covariance(2, 2) < kMuchLess * height_variance_before)
+    object.height_look = decisive(look, object);
 }
 
 void begin_sums(RestingObject& object, const Look& look, const SharedErrorEstimate& errors) {

@@ -20,6 +20,15 @@ struct Mixture {
   double sum_of_noise = 0.0;  ///< traces [m^2]
 };
 
+/// A look as it is in an object's sums, on which much of what is known of the object hangs.
+struct DecisiveLook {
+  LandmarkObservation observation;
+  Eigen::Matrix2d noise;  ///< of it by itself [m^2]
+  Eigen::Matrix2d pixel_noise;
+  double one_per_image;  ///< density of one point in its image, on the ground there [1/m^2]
+  int hits;              ///< of the object, with it
+};
+
 /// An object at rest.
 struct RestingObject : TrackedObject {
   Landmark* landmark = nullptr;  ///< sums over its looks; the table's
@@ -34,6 +43,8 @@ struct RestingObject : TrackedObject {
   Point position_in_enu = Point::Zero();  ///< up: above the level ground [m]
   double sigma_height_m = 0.0;
   VehicleTime sums_since{};                             ///< earlier looks are not in the sums
+  std::optional<DecisiveLook> first_look;               ///< in the sums
+  std::optional<DecisiveLook> height_look;              ///< in the sums: by it the height became known
   PointMatrix pixel_information = PointMatrix::Zero();  ///< sum of the looks' and the ground's [1/m^2]
   PointMatrix pixel_covariance = PointMatrix::Zero();   ///< its inverse [m^2]
   PointMatrix own_covariance = PointMatrix::Zero();     ///< A^-1 [m^2]
@@ -49,6 +60,9 @@ struct RestingObject : TrackedObject {
 
 /// Position and its derivatives from the sums; `now`: the drift nodes of the present frame.
 void refresh(RestingObject& object, const SharedErrorEstimate& errors, const NodeSpan& now);
+
+/// Whether any look is in the sums.
+bool has_looks(const RestingObject& object);
 
 /// The look shows the object; refresh() is the caller's.
 void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift);

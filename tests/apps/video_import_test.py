@@ -76,8 +76,8 @@ class VideoTest(AppTest):
         return run("geoloc_import", "video", self.video, "--log", log, "--out", self.recording, "--camera",
                    camera or self.camera, *arguments)
 
-    def imported(self, log, *arguments):
-        result = self.import_video(log, *arguments)
+    def imported(self, log, *arguments, camera=None):
+        result = self.import_video(log, *arguments, camera=camera)
         self.assertEqual(result.status, 0, result.err)
         return result.err
 
@@ -279,10 +279,13 @@ class ImportedGimbals(VideoTest):
     def test_each_log_is_as_good_as_the_flights_own(self):
         live_found, live_error_m, _ = self.score(self.sim)
         logs = {"a.BIN": to_dataflash(self.flight, [self.stamps_us[0]], self.flight.gimbal),
-                "a.ulg": to_ulog(self.flight, [self.stamps_us[0]], self.flight.gimbal)}
+                "a.ulg": to_ulog(self.flight, [self.stamps_us[0]], self.flight.gimbal),
+                "a.tlog": (self.sim / "telemetry.tlog").read_bytes()}
+        camera = self.log("camera.json", json.dumps({**json.loads(self.camera.read_text()), "mount": {"pitch_deg": -90}}))
         for name, content in logs.items():
             with self.subTest(log=name):
-                self.imported(self.log(name, content), "--labels", self.labels())
+                said = self.imported(self.log(name, content), "--labels", self.labels(), camera=camera)
+                self.assertIn("the log has the angles of a gimbal: the camera is taken to be on it", said)
                 found, error_m, said = self.score(self.recording)
                 self.assertEqual(found, live_found, said)
                 self.assertLessEqual(error_m, 1.1 * live_error_m + 0.0005, said)

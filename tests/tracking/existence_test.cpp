@@ -43,6 +43,17 @@ TEST(Existence, ALookThatIsLessLikelyThanClutterSpeaksAgainstIt) {
   EXPECT_LT(existence.probability(), 0.1);
 }
 
+TEST(Existence, OtherEvidenceCountsByItsLikelihoodRatio) {
+  for (const double ratio : {0.05, 0.5, 3.0}) {
+    Existence existence(0.3);
+    existence.weigh(ratio);
+    EXPECT_NEAR(existence.probability(), posterior(0.3, ratio, 1.0), 1e-12);
+  }
+  Existence existence(0.3);
+  existence.weigh(1.0);
+  EXPECT_EQ(existence.probability(), Existence(0.3).probability());
+}
+
 TEST(Existence, OneLookMultipliesTheOddsByNoMoreThanSixPowersOfE) {
   const double most = std::exp(6.0);
   Existence sure(0.5), gone(0.5);

@@ -88,6 +88,8 @@ std::string injected_json(const Flight& flight, const RecordingSettings& setting
         {"pixel_noise_px", settings.detector.pixel_noise_px},
         {"miss_rate", settings.detector.miss_rate},
         {"clutter_rate", settings.detector.clutter_rate},
+        {"confidence", settings.detector.confidence},
+        {"clutter_confidence", settings.detector.clutter_confidence},
         {"min_visible_fraction", settings.detector.min_visible_fraction}}}};
   return document.dump(2) + "\n";
 }

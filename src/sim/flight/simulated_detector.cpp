@@ -13,8 +13,6 @@
 namespace geoloc::sim {
 namespace {
 
-constexpr double kLeastConfidence = 0.5;
-constexpr double kMostConfidence = 0.95;
 constexpr double kSmallestClutter_px = 18.0;
 constexpr double kLargestClutter_px = 60.0;
 
@@ -41,6 +39,9 @@ std::vector<std::string> DetectorModel::problems() const {
   found.require(pixel_noise_px >= 0.0 && pixel_noise_px <= 1000.0, "pixel_noise must lie in [0, 1000] px");
   found.require(is_rate(miss_rate), "miss_rate must lie in [0, 1]");
   found.require(clutter_rate >= 0.0 && clutter_rate <= 100.0, "clutter_rate must lie in [0, 100]");
+  for (const auto& [least, most] : {confidence, clutter_confidence})
+    found.require(is_rate(least) && is_rate(most) && least <= most,
+                  "confidences must lie in [0, 1], the least first");
   found.require(is_rate(min_visible_fraction), "min_visible_fraction must lie in [0, 1]");
   return found.take();
 }
@@ -88,7 +89,7 @@ std::vector<Detection> SimulatedDetector::detect(const Rigid3d& enu_from_camera,
     const bool missed = detections_.chance(model_.miss_rate);
     box->x += model_.pixel_noise_px * detections_.normal();
     box->y += model_.pixel_noise_px * detections_.normal();
-    const double confidence = detections_.uniform(kLeastConfidence, kMostConfidence);
+    const double confidence = detections_.uniform(model_.confidence[0], model_.confidence[1]);
     if (!missed) found.push_back({*box, confidence, 0});
   }
   for (int i = draw_clutter_count(); i > 0; --i) found.push_back(draw_clutter());
@@ -110,7 +111,7 @@ Detection SimulatedDetector::draw_clutter() {
   box.height = clutter_.uniform(kSmallestClutter_px, kLargestClutter_px);
   box.x = clutter_.uniform(0.0, std::max(0.0, camera_.intrinsics().width_px - box.width));
   box.y = clutter_.uniform(0.0, std::max(0.0, camera_.intrinsics().height_px - box.height));
-  return {box, clutter_.uniform(kLeastConfidence, kMostConfidence), 0};
+  return {box, clutter_.uniform(model_.clutter_confidence[0], model_.clutter_confidence[1]), 0};
 }
 
 }  // namespace geoloc::sim

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "calibration/shared_error_estimate.hpp"
+#include "tracking/resting_object.hpp"
+
+namespace geoloc {
+
+/// How much more probable a look was nothing than the object, before it is compared with the object's others.
+struct FalseOdds {
+  double of_first;  ///< of a look that fits no known object
+  double of_later;  ///< of a look at an object: false boxes in the image, by those that show the object
+};
+
+/// Takes a look out of a young object's sums that a false box explains better than the object does, once its
+/// other looks tell where it is. (While the height of an object is open, looks metres away along its ray join
+/// it, and what one of them says of the height stays.) Where the sums hold the look as it was no more, they
+/// begin anew with the newest one. Returns how many were taken out.
+int drop_false_looks(RestingObject& object, const Look& newest, const FalseOdds& odds,
+                     const SharedErrorEstimate& errors);
+
+}  // namespace geoloc
