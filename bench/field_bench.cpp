@@ -50,7 +50,8 @@ class Field {
     };
     for (int row = index(centre.y() - reach_m); row <= index(centre.y() + reach_m); ++row) {
       for (int column = index(centre.x() - reach_m); column <= index(centre.x() + reach_m); ++column)
-        visit(places_[static_cast<std::size_t>(row * side_ + column)]);
+        visit(places_[static_cast<std::size_t>(row) * static_cast<std::size_t>(side_) +
+                      static_cast<std::size_t>(column)]);
     }
   }
 

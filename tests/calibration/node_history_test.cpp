@@ -54,7 +54,8 @@ TEST(NodeHistory, TellsANodeByThoseThatAreLeftWhateverWentBetween) {
       value_of(value_of, serial);
     }
     const std::uint32_t oldest = history.size() > 300 ? history.size() - 300 : 0;
-    for (std::uint32_t serial = oldest; serial < history.size(); serial += 1 + static_cast<std::uint32_t>(random() % 40)) {
+    for (std::uint32_t serial = oldest; serial < history.size();
+         serial += 1 + static_cast<std::uint32_t>(random() % 40)) {
       const NodeHistory::Blend found = history.resolve(serial);
       Vector value = found.constant;
       for (const auto& share : found.shares) {

@@ -169,7 +169,6 @@ TEST(LongFlights, KnowWhatTheySawAtFirstAsWellAsTheyState) {
     flight.fly_until(kVisit_s + 30.0);
     at_first += flight.squared_deviation() / kFlights;
     flight.fly_until(kLength_s);
-    for (const Track& t : flight.flight().tracks()) std::fprintf(stderr, "id %d st %d hits %d at %.2f %.2f sig %.3f %.3f ex %.4f h %.2f %.2f\n", (int)t.id, (int)t.status, t.hits, t.position_in_enu.mean.x(), t.position_in_enu.mean.y(), std::sqrt(t.position_in_enu.covariance(0,0)), std::sqrt(t.position_in_enu.covariance(1,1)), *t.existence, t.height->above_home_m, t.height->sigma_m);
     at_last += flight.squared_deviation() / kFlights;
   }
   EXPECT_LT(at_first, most_by_chance(kFlights));
