@@ -131,13 +131,23 @@ class LivePage(BrowserTest):
         page.wait_for_function("""() => [...document.querySelectorAll("#objects img:not([hidden])")]
           .some((image) => image.complete && image.naturalWidth >= 40)""")
 
+    def selects_an_object(self, page):
+        """Clicks where the map shows one; again where it was drawn anew between the look and the click."""
+        for _ in range(10):
+            page.mouse.click(*self.finds_colour(page, "#map-canvas", "--object"))
+            deadline = time.monotonic() + 10
+            while time.monotonic() < deadline:
+                if page.locator("#selected:not([hidden]) .place").is_visible():
+                    return
+                page.wait_for_timeout(100)
+        self.fail("clicks on objects select none")
+
     def check_screen(self, name, page, url):
         """A click on an object shows its position; nothing overflows; a screenshot is kept."""
         page.bring_to_front()
         page.locator("#fit").click()  # the map stands still from here on
         page.wait_for_selector("#fit[aria-pressed=false]")
-        page.mouse.click(*self.finds_colour(page, "#map-canvas", "--object"))
-        page.wait_for_selector("#selected:not([hidden]) .place")
+        self.selects_an_object(page)
         coordinates = self.wait_for_coordinates(page, url)
         pointed = re.findall(r"-?\d+\.\d+", page.locator("#readout").inner_text())[:2]  # where the click was
         for read, told in zip(pointed, coordinates["degrees"].split(", ")):
