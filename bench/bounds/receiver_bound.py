@@ -6,8 +6,9 @@
 
 The observer knows the vehicle's true path but for a shift, a turn and a scale of the whole, which no look at
 unknown objects tells (docs/results.md). He places it by the reported positions, by generalised least squares
-with the covariance that the flights were simulated with. What that leaves is the bound for any method that is
-told no surveyed point: it is the receiver's own error, drawn once a flight, whatever targets and seed.
+with a covariance close to that which the flights were simulated with (its fast part is fitted to them). What that
+leaves is the bound for any method that is told no surveyed point: it is the receiver's own error, drawn once a
+flight, whatever targets and seed.
 """
 import csv
 import gzip
