@@ -422,7 +422,8 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
     look.observation =
         look_maker_.linearised_at(track.position_in_enu, look, frame_looks.share_attitude, frame, errors_);
     add_to_sums(track, look, errors_);
-    clutter_rate_.count_false(drop_false_looks(track, look, false_odds, errors_));
+    // Those are not counted as clutter: a dozen of the first seconds would make every new object improbable.
+    drop_false_looks(track, look, false_odds, errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
     recent_looks_.add(track.track.id, frame.time(), look);
     confirm_if_probable(track, config_.confirm_probability);
