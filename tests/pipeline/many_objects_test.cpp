@@ -63,6 +63,19 @@ TEST(ManyObjects, ElsewhereChangeNothingHere) {
   }
 }
 
+/// What the noise of the first seconds makes of a few looks must not keep the rest from being found.
+TEST(ManyObjects, AreAllFoundByANoisyDetector) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise_px(0.0, 1.0);
+  std::vector<Eigen::Vector3d> places;
+  for (const Eigen::Vector2d& place : grid(-8.0, kFar_m, 4.0)) places.emplace_back(place.x(), place.y(), 0.0);
+  NadirFlight flight(GeolocatorConfig{}, out_and_back);
+  for (double time_s = 0.5; time_s < kBack_s; time_s += 0.1)
+    flight.see_points(time_s, places, [&] { return noise_px(random); });
+  for (const Eigen::Vector3d& place : places)
+    EXPECT_TRUE(testing::object_at(place.head<2>(), flight.tracks(), 0.5)) << place.transpose();
+}
+
 /// Objects that sleep and wake are in the output throughout, each once and in the order of the ids.
 TEST(ManyObjects, StayInTheOutputInOrder) {
   NadirFlight flight(GeolocatorConfig{}, out_and_back);
