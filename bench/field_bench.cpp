@@ -12,7 +12,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -133,7 +132,7 @@ Quantiles quantiles_of(std::vector<double> times_us) {
   return {times_us[times_us.size() / 2], times_us[times_us.size() * 99 / 100], times_us.back()};
 }
 
-/// Of this thread alone, so that other processes don't count.
+/// Processor time of this thread alone, so that other processes do not count.
 double cpu_time_us() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

@@ -105,7 +105,7 @@ class DriftTimeline {
   /// How many nodes were made so far.
   std::uint32_t nodes_made() const { return history_.size(); }
 
-  /// Of a node that is left.
+  /// The number that a node which is left has now.
   std::uint32_t number_of(std::uint32_t serial) const;
 
   /// Errors that last for a second or so, beside the drift.

@@ -16,13 +16,13 @@ class PositionPrior {
 
   explicit PositionPrior(Eigen::Index max_nodes);
 
-  /// Of component 0 (east) or 1 (north), for the nodes that are estimated.
+  /// Forms the prior of component 0 (east) or 1 (north), for the nodes that are estimated.
   void form(const DriftTimeline& drift, int component);
 
   Eigen::Index size() const { return size_; }
   double mean(Eigen::Index node) const { return mean_[node]; }
 
-  /// Of the inverse covariance [1/m^2].
+  /// An element of the inverse covariance [1/m^2].
   double information(Eigen::Index row, Eigen::Index column) const { return information_(row, column); }
 
   /// W = L^-1, where L L' is the covariance: row i tells in sigmas by how much node i differs from what those

@@ -190,20 +190,22 @@ void SettledSums::thin(const ThinnedNode& node) {
   }
 }
 
+/// Nothing is there to do where none of that number is settled.
+void SettledSums::freeze_oldest(Places& of, std::uint32_t number,
+                                const Eigen::Matrix<double, kBlock, 1>& value) {
+  if (!of.has(number)) return;
+  substitute(of.of(number), {-1, -1}, {0.0, 0.0}, value);
+  of.places.erase(of.places.begin());
+  ++of.begin;
+}
+
 void SettledSums::freeze_oldest_node(const DriftTimeline& drift) {
-  const std::uint32_t oldest = drift.begin();
-  if (!nodes_.has(oldest)) return;
-  substitute(nodes_.of(oldest), {-1, -1}, {0.0, 0.0}, drift.node(oldest).mean);
-  nodes_.places.erase(nodes_.places.begin());
-  ++nodes_.begin;
+  freeze_oldest(nodes_, drift.begin(), drift.node(drift.begin()).mean);
 }
 
 void SettledSums::freeze_oldest_spell(const DriftTimeline& drift) {
-  const std::uint32_t oldest = drift.sway().begin();
-  if (!spells_.has(oldest)) return;
-  substitute(spells_.of(oldest), {-1, -1}, {0.0, 0.0}, drift.sway().spell(oldest).mean);
-  spells_.places.erase(spells_.places.begin());
-  ++spells_.begin;
+  const SwayTimeline& sway = drift.sway();
+  freeze_oldest(spells_, sway.begin(), sway.spell(sway.begin()).mean);
 }
 
 void SettledSums::freeze_latency(double latency_s) {

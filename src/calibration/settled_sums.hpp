@@ -57,7 +57,7 @@ class SettledSums {
     int of(std::uint32_t number) const { return places[number - begin]; }
   };
 
-  /// Of a node or spell in the head and in the total.
+  /// Where a node or a spell stands in the head and in the total.
   struct Column {
     Eigen::Index in_head;
     int place;
@@ -67,6 +67,7 @@ class SettledSums {
   int place_of(Places& of, std::uint32_t number);
   void substitute(int gone, const std::array<int, 2>& by, const std::array<double, 2>& weights,
                   const Eigen::Matrix<double, kBlock, 1>& deviation);
+  void freeze_oldest(Places& of, std::uint32_t number, const Eigen::Matrix<double, kBlock, 1>& value);
   void release(int place);
   void couple(int a, int b);
   void add_eliminated(const Landmark& landmark, double sign);

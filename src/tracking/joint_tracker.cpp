@@ -38,10 +38,6 @@ JointTrackerConfig checked(const JointTrackerConfig& config) {
   return config;
 }
 
-int most_awake(const JointTrackerConfig& config) {
-  return std::min(config.max_tracks, kMostAwake);
-}
-
 PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
   return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
 }

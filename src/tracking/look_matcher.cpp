@@ -63,9 +63,9 @@ bool is_older(const RestingObject& object, const RestingObject& other) {
 }  // namespace
 
 LookMatcher::LookMatcher(const JointTrackerConfig& config, int max_detections)
-    : config_(config), association_(max_detections, std::min(config.max_tracks, kMostAwake)) {
+    : config_(config), association_(max_detections, most_awake(config)) {
   explanation_.match_of_look.reserve(max_detections);
-  reach_of_track_.reserve(std::min(config.max_tracks, kMostAwake));
+  reach_of_track_.reserve(most_awake(config));
   median_scratch_.reserve(max_detections);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "calibration/shared_error_estimate.hpp"
 #include "geoloc/tracking/joint_tracker_config.hpp"
 #include "tracking/joint_frame.hpp"
@@ -13,8 +15,10 @@
 // ever seen.
 namespace geoloc {
 
-/// Awake objects at most.
-inline constexpr int kMostAwake = 20000;
+/// Objects that may be awake at a time: all, but for flights over very many.
+inline int most_awake(const JointTrackerConfig& config) {
+  return std::min(config.max_tracks, 20000);
+}
 
 /// East and north of what a frame may show, by all that is known of the shared errors; more while the frame's
 /// time is in doubt.
