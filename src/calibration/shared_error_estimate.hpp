@@ -18,8 +18,11 @@ namespace geoloc {
 /// position.
 struct PositionAccuracy {
   double radial_m;
-  double constant_share;        ///< share of the variance that stays constant over a flight; the rest wanders
-  double least_offset_sigma_m;  ///< of the constant error, per axis
+  double constant_share;  ///< share of the variance that stays constant over a flight; the rest wanders
+  /// Least 1-sigma of the constant error, per axis: before the flight shows how much the position wanders (an
+  /// RTK fix states centimetres against its base, and nothing of where that stands), and whatever it shows.
+  double stated_offset_sigma_m;
+  double least_offset_sigma_m;
 
   /// The part of it that may change within minutes: whatever a receiver says of itself, an autopilot's
   /// position does not wander by tens of metres and stay usable.

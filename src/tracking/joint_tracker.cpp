@@ -39,7 +39,8 @@ JointTrackerConfig checked(const JointTrackerConfig& config) {
 }
 
 PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
-  return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
+  return {config.horizontal_accuracy_m, config.constant_share, config.stated_offset_sigma_m,
+          config.least_offset_sigma_m};
 }
 
 /// What looks tell of the focal length is off by so much in flights where it was right (docs/method.md), more
@@ -121,6 +122,8 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
   const double attitude = config_.sigma_attitude_bias_deg * kRadPerDeg;
   camera.covariance.diagonal().segment<3>(Index::kBoresight).array() += attitude * attitude;
   camera.covariance(Index::kLatency, Index::kLatency) +=
+      config_.sigma_state_lag_s * config_.sigma_state_lag_s;
+  camera.covariance(Index::kPositionLag, Index::kPositionLag) +=
       config_.sigma_state_lag_s * config_.sigma_state_lag_s;
   if (camera.has_unknown_focal())
     camera.covariance(Index::kFocal, Index::kFocal) += std::pow(kSigmaOfFoundFocal, 2);
