@@ -491,6 +491,40 @@ TEST(JointCalibration, TellsALateFrameFromALatePosition) {
   }
 }
 
+/// Attitudes far noisier than expected may pull the first height down to the ground, where no look
+/// contradicts another; the flight then begins anew.
+TEST(JointCalibration, IsNotLostInTheFirstSecondsOfAVehicleWithNoisyAttitudes) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    const auto noise_rad = [&] { return 2.0 * kPi / 180.0 * normal(random); };
+    const auto starting = [](double time_s) {
+      const double since_s = std::max(0.0, time_s - 3.0), accelerating_s = std::min(since_s, 2.0);
+      const double north_m = 1.25 * accelerating_s * accelerating_s + 5.0 * (since_s - accelerating_s);
+      return Pose{{0.0, north_m, kHeight_m}, 0.0, accelerating_s < 2.0 && since_s > 0.0 ? -0.2 : 0.0, 0.0};
+    };
+    const auto shaken = [&](double time_s) {
+      Pose pose = starting(time_s);
+      pose.roll += noise_rad();
+      pose.pitch += noise_rad();
+      pose.yaw += noise_rad();
+      return pose;
+    };
+    const auto late = [&](double time_s) {
+      Pose pose = starting(time_s - 0.12);
+      pose.roll += 0.02;
+      return pose;
+    };
+    NadirFlight flight(GeolocatorConfig{}, shaken, late);
+    std::vector<Eigen::Vector2d> places{{5.0, 3.0}, {-7.0, 4.0}};
+    for (double north = 10.0; north < 200.0; north += 4.0) places.emplace_back(8.0 * normal(random), north);
+    for (double time_s = 0.5; time_s < 40.0; time_s += 0.1) flight.see(time_s, places);
+    const Calibration learnt = *flight.geolocator().calibration();
+    EXPECT_LT(std::abs(learnt.height_m()), 5.0) << seed;
+    EXPECT_LT(std::abs(learnt.latency_s()), 0.3) << seed;
+  }
+}
+
 /// All looks of a frame share its attitude: the boresight is known no better for seeing many objects.
 TEST(JointCalibration, ManyObjectsInAFrameAreNotAsManyWitnessesOfItsAttitude) {
   const double prior = JointTrackerConfig{}.prior.sigma_boresight_x_deg * kPi / 180.0;
