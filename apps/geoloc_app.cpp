@@ -134,10 +134,15 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
   const LiveInputs& inputs = program.inputs;
   std::optional<PagePictures> pictures;
   if (program.page) pictures.emplace(program.page, inputs.config.estimation.live_page.picture_width_px);
-  ObjectPictures object_pictures([&program](std::uint64_t id, const std::string& jpeg) {
-    if (program.page) program.page->show_object(id, jpeg);
-    program.recorder->add_picture(id, jpeg);
-  });
+  ObjectPictures object_pictures(
+      [&program](std::uint64_t id, const std::string& jpeg) {
+        if (program.page) program.page->show_object(id, jpeg);
+        program.recorder->add_picture(id, jpeg);
+      },
+      [&program](std::uint64_t id) {
+        if (program.page) program.page->forget_picture(id);
+        program.recorder->remove_picture(id);
+      });
   const bool keeps_pictures = program.page || !program.options.record_folder.empty();
   const auto on_detected = [&](const io::VideoFrame& frame, const std::vector<Detection>& detections) {
     if (pictures) pictures->offer(frame, detections);
