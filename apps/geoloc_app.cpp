@@ -47,6 +47,8 @@ using namespace geoloc::apps;
 constexpr auto kStatusPeriod = std::chrono::seconds{1};
 /// Files are written anew so often, so that a power cut costs seconds.
 constexpr auto kFilePeriod = std::chrono::seconds{5};
+/// Streams come and go within minutes at most.
+constexpr auto kMemoryPeriod = std::chrono::minutes{1};
 constexpr auto kDoubtsBegin = std::chrono::seconds{15};
 constexpr auto kDoubtLasts = std::chrono::seconds{30};
 constexpr auto kTablePatience = std::chrono::seconds{5};
@@ -158,7 +160,7 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
   const HostTime started_at = program.clock.now();
   DamageWatch damage(inputs.config.video.transport);
   SteadyText doubt(kDoubtLasts);
-  Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at);
+  Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at), memory(kMemoryPeriod, started_at);
   while (!stop.is_requested() && !run.has_ended()) {
     run.step();
     const HostTime now = program.clock.now();
@@ -178,6 +180,7 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
       program.outputs.post_status(state);
       if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
     }
+    if (memory.is_due(now)) give_back_memory();
     if (!files.is_due(now)) continue;
     program.session.note_damaged(worker.stats().damaged);
     program.outputs.post_run(program.record());
