@@ -12,15 +12,15 @@
 namespace geoloc::apps {
 namespace {
 
-/// What of this process lies in memory.
-double resident_MiB() {
-  std::ifstream statm("/proc/self/statm");
-  double pages = 0.0, resident_pages = 0.0;
-  statm >> pages >> resident_pages;
-  return resident_pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
-
 #if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+/// What of this process lies in memory.
+std::size_t resident_bytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t pages = 0, resident_pages = 0;
+  statm >> pages >> resident_pages;
+  return resident_pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
 
 /// As after a burst whose blocks lay between others that stay.
 TEST(Memory, WhatABurstNeededIsGivenBack) {
@@ -31,10 +31,10 @@ TEST(Memory, WhatABurstNeededIsGivenBack) {
     burst.emplace_back(kBlock_bytes, 'x');
     lasting.push_back(std::make_unique<int>(1));
   }
-  const double at_most_MiB = resident_MiB();
+  const std::size_t at_most_bytes = resident_bytes();
   burst.clear();
   give_back_memory();
-  EXPECT_LT(resident_MiB(), at_most_MiB - 50.0);
+  EXPECT_LT(resident_bytes() + (50 << 20), at_most_bytes);
 }
 
 #endif
