@@ -47,6 +47,8 @@ using namespace geoloc::apps;
 constexpr auto kStatusPeriod = std::chrono::seconds{1};
 /// Files are written anew so often, so that a power cut costs seconds.
 constexpr auto kFilePeriod = std::chrono::seconds{5};
+/// Streams come and go within minutes at most.
+constexpr auto kMemoryPeriod = std::chrono::minutes{1};
 constexpr auto kDoubtsBegin = std::chrono::seconds{15};
 constexpr auto kDoubtLasts = std::chrono::seconds{30};
 constexpr auto kTablePatience = std::chrono::seconds{5};
@@ -134,10 +136,15 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
   const LiveInputs& inputs = program.inputs;
   std::optional<PagePictures> pictures;
   if (program.page) pictures.emplace(program.page, inputs.config.estimation.live_page.picture_width_px);
-  ObjectPictures object_pictures([&program](std::uint64_t id, const std::string& jpeg) {
-    if (program.page) program.page->show_object(id, jpeg);
-    program.recorder->add_picture(id, jpeg);
-  });
+  ObjectPictures object_pictures(
+      [&program](std::uint64_t id, const std::string& jpeg) {
+        if (program.page) program.page->show_object(id, jpeg);
+        program.recorder->add_picture(id, jpeg);
+      },
+      [&program](std::uint64_t id) {
+        if (program.page) program.page->forget_picture(id);
+        program.recorder->remove_picture(id);
+      });
   const bool keeps_pictures = program.page || !program.options.record_folder.empty();
   const auto on_detected = [&](const io::VideoFrame& frame, const std::vector<Detection>& detections) {
     if (pictures) pictures->offer(frame, detections);
@@ -153,7 +160,7 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
   const HostTime started_at = program.clock.now();
   DamageWatch damage(inputs.config.video.transport);
   SteadyText doubt(kDoubtLasts);
-  Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at);
+  Periodic status(kStatusPeriod, {}), files(kFilePeriod, started_at), memory(kMemoryPeriod, started_at);
   while (!stop.is_requested() && !run.has_ended()) {
     run.step();
     const HostTime now = program.clock.now();
@@ -173,6 +180,7 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
       program.outputs.post_status(state);
       if (inputs.signing_store) inputs.signing_store->keep(*inputs.guard->signing_stamps());
     }
+    if (memory.is_due(now)) give_back_memory();
     if (!files.is_due(now)) continue;
     program.session.note_damaged(worker.stats().damaged);
     program.outputs.post_run(program.record());

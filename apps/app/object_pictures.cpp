@@ -67,8 +67,8 @@ double picture_worth(const Detection& detection, int width_px, int height_px) {
   return detection.confidence * std::sqrt(box.width * box.height) * (is_whole ? 1.0 : kEdgeShare);
 }
 
-ObjectPictures::ObjectPictures(OnBetter on_better)
-    : on_better_(std::move(on_better)), thread_([this] { run(); }) {}
+ObjectPictures::ObjectPictures(OnBetter on_better, OnGone on_gone)
+    : on_better_(std::move(on_better)), on_gone_(std::move(on_gone)), thread_([this] { run(); }) {}
 
 ObjectPictures::~ObjectPictures() {
   {
@@ -117,6 +117,7 @@ void ObjectPictures::drop_oldest() {
 }
 
 void ObjectPictures::assign(const Geolocator& geolocator, HostTime captured_at) {
+  forget_gone(geolocator.tracks());
   for (Piece& piece : take(captured_at)) {
     const auto& all = geolocator.located();
     const auto located = std::find_if(all.begin(), all.end(), [&](const LocatedDetection& one) {
@@ -135,6 +136,23 @@ void ObjectPictures::assign(const Geolocator& geolocator, HostTime captured_at) 
   }
 }
 
+/// Many an object is seen twice and never again: their pictures would add up over hours, and take the places
+/// of others. `objects`: all that there are, in order of their ids, as pictures are.
+void ObjectPictures::forget_gone(const std::vector<Track>& objects) {
+  auto object = objects.begin();
+  for (auto pictured = worth_.begin(); pictured != worth_.end();) {
+    while (object != objects.end() && object->id < pictured->first) ++object;
+    if (object != objects.end() && object->id == pictured->first) {
+      ++pictured;
+      continue;
+    }
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back({pictured->first, std::nullopt});
+    has_job_.notify_one();
+    pictured = worth_.erase(pictured);
+  }
+}
+
 std::size_t ObjectPictures::waiting_bytes() const {
   const std::lock_guard lock(mutex_);
   return waiting_bytes_;
@@ -148,8 +166,16 @@ void ObjectPictures::run() {
     const Job job = std::move(jobs_.front());
     jobs_.pop_front();
     lock.unlock();
-    on_better_(job.object_id, encoded(job.bgr));
+    perform(job);
     lock.lock();
+  }
+}
+
+void ObjectPictures::perform(const Job& job) const {
+  if (job.bgr) {
+    on_better_(job.object_id, encoded(*job.bgr));
+  } else {
+    on_gone_(job.object_id);
   }
 }
 

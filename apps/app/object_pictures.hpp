@@ -17,6 +17,7 @@
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/io/video/video_frame.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
+#include "geoloc/tracking/track.hpp"
 
 namespace geoloc::apps {
 
@@ -26,8 +27,10 @@ class ObjectPictures {
  public:
   /// Called in the thread with each picture that is better than the one before.
   using OnBetter = std::function<void(std::uint64_t object_id, const std::string& jpeg)>;
+  /// Called in the thread, after the last picture of an object that there is no more.
+  using OnGone = std::function<void(std::uint64_t object_id)>;
 
-  explicit ObjectPictures(OnBetter on_better);
+  ObjectPictures(OnBetter on_better, OnGone on_gone);
   ~ObjectPictures();
   ObjectPictures(const ObjectPictures&) = delete;
   ObjectPictures& operator=(const ObjectPictures&) = delete;
@@ -53,21 +56,24 @@ class ObjectPictures {
   };
   struct Job {
     std::uint64_t object_id;
-    cv::Mat bgr;
+    std::optional<cv::Mat> bgr;  ///< nullopt: the object is gone
   };
 
   static std::size_t size_bytes(const Frame& frame);
   void drop_oldest();
   std::vector<Piece> take(HostTime captured_at);
+  void forget_gone(const std::vector<Track>& objects);
   void run();
+  void perform(const Job& job) const;
 
   OnBetter on_better_;
+  OnGone on_gone_;
   std::map<std::uint64_t, double> worth_;  // by object, of its best picture; the estimator's thread's
   mutable std::mutex mutex_;               // guards what follows
   std::condition_variable has_job_;
   std::deque<Frame> waiting_;
   std::size_t waiting_bytes_ = 0;
-  std::deque<Job> jobs_;
+  std::deque<Job> jobs_;  // in their order, so that what is gone stays gone
   bool stop_ = false;
   std::thread thread_;  // last: it uses all of the above
 };

@@ -29,7 +29,7 @@ struct Recorder::State {
   };
   struct Picture {
     std::uint64_t object_id;
-    std::string jpeg;
+    std::optional<std::string> jpeg;  ///< nullopt: there is none any more
   };
   using Entry = std::variant<Telemetry, io::RecordedFrame, io::NotedObject, Picture>;
 
@@ -63,6 +63,7 @@ struct Recorder::State {
   static std::size_t size_bytes(const Entry& entry);
   void record_until_closed();
   void write(const Entry& entry);
+  void write_picture(const Picture& picture);
   bool take_waiting(std::vector<Entry>& batch);
   void note_move();
 };
@@ -71,7 +72,8 @@ struct Recorder::State {
 std::size_t Recorder::State::size_bytes(const Entry& entry) {
   if (const auto* telemetry = std::get_if<Telemetry>(&entry)) return sizeof entry + telemetry->frame.size();
   if (const auto* noted = std::get_if<io::NotedObject>(&entry)) return sizeof entry + noted->note.name.size();
-  if (const auto* picture = std::get_if<Picture>(&entry)) return sizeof entry + picture->jpeg.size();
+  if (const auto* picture = std::get_if<Picture>(&entry))
+    return sizeof entry + (picture->jpeg ? picture->jpeg->size() : 0);
   return sizeof entry + std::get<io::RecordedFrame>(entry).detections.size() * sizeof(Detection);
 }
 
@@ -81,9 +83,17 @@ void Recorder::State::write(const Entry& entry) {
   } else if (const auto* noted = std::get_if<io::NotedObject>(&entry)) {
     writer->add_note(*noted);
   } else if (const auto* picture = std::get_if<Picture>(&entry)) {
-    writer->write_picture(picture->object_id, picture->jpeg);
+    write_picture(*picture);
   } else {
     writer->add_frame(std::get<io::RecordedFrame>(entry));
+  }
+}
+
+void Recorder::State::write_picture(const Picture& picture) {
+  if (picture.jpeg) {
+    writer->write_picture(picture.object_id, *picture.jpeg);
+  } else {
+    writer->remove_picture(picture.object_id);
   }
 }
 
@@ -214,6 +224,10 @@ void Recorder::add_note(io::NotedObject noted) {
 
 void Recorder::add_picture(std::uint64_t object_id, const std::string& jpeg) {
   if (state_) state_->add(State::Picture{object_id, jpeg});
+}
+
+void Recorder::remove_picture(std::uint64_t object_id) {
+  if (state_) state_->add(State::Picture{object_id, std::nullopt});
 }
 
 std::vector<std::string> Recorder::take_messages() {

@@ -37,6 +37,8 @@ class Recorder {
   void add_note(io::NotedObject noted);
   /// An object's best picture so far, a JPEG. From any thread.
   void add_picture(std::uint64_t object_id, const std::string& jpeg);
+  /// The object is gone, and so is its picture. From any thread.
+  void remove_picture(std::uint64_t object_id);
 
   /// Records of telemetry that were taken so far (io::RecordedFrame::telemetry_records).
   std::uint64_t telemetry_records() const { return telemetry_records_; }

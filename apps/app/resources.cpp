@@ -42,6 +42,12 @@ void keep_memory_compact() {
 #endif
 }
 
+void give_back_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
 void require_resources() {
   const rlim_t files = raise_open_files();
   if (files < kLeastFiles)

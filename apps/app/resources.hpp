@@ -8,6 +8,10 @@ namespace geoloc::apps {
 /// which 100 are in use. With two arenas, and pictures apart from them, the program stays below 190 MB.
 void keep_memory_compact();
 
+/// Gives freed memory back to the system. What a stream's start needs for a few seconds, some megabytes, lies
+/// between blocks that stay; the C library would keep it for ever, and more with each start that needs more.
+void give_back_memory();
+
 /// Raises the limit of open files as far as the system lets it. Throws std::runtime_error with the remedy
 /// where that, or the limit of memory, is less than a run needs: its libraries abort when they meet such a
 /// limit.

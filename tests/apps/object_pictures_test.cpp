@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
+#include <set>
 
 namespace geoloc::apps {
 namespace {
@@ -28,11 +30,14 @@ TEST(PictureWorth, IsGreaterForWhatIsLargerSurerAndWhole) {
 /// A vehicle that hovers 20 m above the ground with a camera that looks down.
 class Hover : public ::testing::Test {
  protected:
-  Hover() : geolocator(config()) {
-    for (int i = 0; i <= 100; ++i) {
-      geolocator.add(AttitudeSample{VehicleTime{std::chrono::milliseconds{100 * i}}, {0.0, 0.0, 0.0}});
+  Hover() : geolocator(config()) {}
+
+  /// Its state up to that time, ten times a second.
+  void hover_until(Duration since_begin) {
+    for (; hovered_for <= since_begin; hovered_for += std::chrono::milliseconds{100}) {
+      geolocator.add(AttitudeSample{VehicleTime{hovered_for}, {0.0, 0.0, 0.0}});
       PositionSample position;
-      position.time = VehicleTime{std::chrono::milliseconds{100 * i}};
+      position.time = VehicleTime{hovered_for};
       position.position = {45.0, 7.0};
       position.height_above_home_m = 20.0;
       geolocator.add(position);
@@ -48,6 +53,7 @@ class Hover : public ::testing::Test {
   /// A frame that shows one thing in a colour, searched and located.
   void see(int frame_number, const Box& box, const cv::Scalar& colour, ObjectPictures& pictures) {
     const Duration since_begin = std::chrono::milliseconds{1000 + 100 * frame_number};
+    hover_until(since_begin + std::chrono::seconds{1});
     io::VideoFrame video;
     video.captured_at = HostTime{since_begin};
     video.bgr = cv::Mat(kHeight_px, kWidth_px, CV_8UC3, colour);
@@ -62,15 +68,18 @@ class Hover : public ::testing::Test {
   }
 
   Geolocator geolocator;
+  Duration hovered_for{};
 };
 
 TEST_F(Hover, TheBestPictureOfAnObjectIsTheLastThatIsGiven) {
   std::map<std::uint64_t, std::vector<cv::Mat>> given;
   {
-    ObjectPictures pictures([&given](std::uint64_t id, const std::string& jpeg) {
-      const std::vector<unsigned char> bytes(jpeg.begin(), jpeg.end());
-      given[id].push_back(cv::imdecode(bytes, cv::IMREAD_COLOR));
-    });
+    ObjectPictures pictures(
+        [&given](std::uint64_t id, const std::string& jpeg) {
+          const std::vector<unsigned char> bytes(jpeg.begin(), jpeg.end());
+          given[id].push_back(cv::imdecode(bytes, cv::IMREAD_COLOR));
+        },
+        [](std::uint64_t) {});
     see(0, {300.0, 220.0, 20.0, 20.0}, {255.0, 0.0, 0.0}, pictures);
     see(1, {290.0, 210.0, 40.0, 40.0}, {0.0, 255.0, 0.0}, pictures);  // larger
     see(2, {300.0, 220.0, 20.0, 20.0}, {0.0, 0.0, 255.0}, pictures);  // worse again
@@ -82,8 +91,29 @@ TEST_F(Hover, TheBestPictureOfAnObjectIsTheLastThatIsGiven) {
   EXPECT_EQ(pictures.back().cols, 80);
 }
 
+/// Hours of false detections must not fill the memory with pictures of what is not there.
+TEST_F(Hover, NoPictureIsLeftOfWhatIsNoObjectAnyMore) {
+  std::set<std::uint64_t> left, given;
+  {
+    ObjectPictures pictures(
+        [&](std::uint64_t id, const std::string& /*jpeg*/) {
+          left.insert(id);
+          given.insert(id);
+        },
+        [&left](std::uint64_t id) { EXPECT_EQ(left.erase(id), 1U); });
+    for (int number = 0; number < 500; ++number) {
+      const double x_px = 20.0 + 45.0 * (number % 13), y_px = 20.0 + 40.0 * (number % 11);  // 143 places
+      see(number, {x_px, y_px, 20.0, 20.0}, {255.0, 0.0, 0.0}, pictures);
+    }
+  }
+  std::set<std::uint64_t> objects;
+  for (const Track& track : geolocator.tracks()) objects.insert(track.id);
+  EXPECT_TRUE(std::includes(objects.begin(), objects.end(), left.begin(), left.end()));
+  EXPECT_GT(given.size(), left.size());  // some came and went
+}
+
 TEST_F(Hover, FramesThatAreNeverLocatedTakeBoundedMemory) {
-  ObjectPictures pictures([](std::uint64_t /*id*/, const std::string& /*jpeg*/) {});
+  ObjectPictures pictures([](std::uint64_t /*id*/, const std::string& /*jpeg*/) {}, [](std::uint64_t) {});
   io::VideoFrame video;
   video.bgr = cv::Mat(1080, 1920, CV_8UC3, cv::Scalar());
   const std::vector<Detection> large(16, {{100.0, 40.0, 1000.0, 1000.0}, 0.9, 0});
@@ -97,7 +127,8 @@ TEST_F(Hover, FramesThatAreNeverLocatedTakeBoundedMemory) {
 TEST_F(Hover, AFrameThatWasNotLocatedGivesNone) {
   int given = 0;
   {
-    ObjectPictures pictures([&given](std::uint64_t /*id*/, const std::string& /*jpeg*/) { ++given; });
+    ObjectPictures pictures([&given](std::uint64_t /*id*/, const std::string& /*jpeg*/) { ++given; },
+                            [](std::uint64_t) {});
     io::VideoFrame video;
     video.captured_at = HostTime{std::chrono::seconds{1}};
     video.bgr = cv::Mat(kHeight_px, kWidth_px, CV_8UC3, cv::Scalar());

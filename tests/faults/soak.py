@@ -119,14 +119,14 @@ class Soak:
         return faults + self._check_objects()
 
     def _floors(self, signs):
-        """[(hours of flight, MB)]: what each flight held at least. Queues and encoders come and go within a flight by ten
+        """[(hours of flight, MB)]: what each whole flight held at least. Queues and encoders come and go within a flight by ten
         times of what is to be seen, and are not independent from second to second."""
         floors = {}
         for time_s, sign in signs:
             hours = time_s * self._speed / 3600
             _, least = floors.get(sign["flight"], (0.0, float("inf")))
             floors[sign["flight"]] = (hours, min(least, sign["rss_mb"]))
-        return list(floors.values())
+        return list(floors.values())[:-1]  # the last one was cut off
 
     def _check_objects(self):
         again = self._folder / "again.geojson"

@@ -120,6 +120,15 @@ void LiveDocument::show_object(std::uint64_t id, std::string jpeg) {
   if (const auto found = objects_.find(id); found != objects_.end()) write_json(id, found->second);
 }
 
+void LiveDocument::forget_picture(std::uint64_t id) {
+  const std::lock_guard lock(mutex_);
+  if (pictures_.erase(id) == 0) return;
+  const auto found = objects_.find(id);
+  if (found == objects_.end()) return;
+  publish();
+  write_json(id, found->second);
+}
+
 std::shared_ptr<const std::string> LiveDocument::picture_of(std::uint64_t id) const {
   const std::lock_guard lock(mutex_);
   const auto found = pictures_.find(id);

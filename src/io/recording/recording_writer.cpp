@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -164,11 +165,19 @@ void RecordingWriter::add_note(const NotedObject& noted) {
   notes_->append(note_to_line(noted));
 }
 
+fs::path RecordingWriter::picture_file(std::uint64_t object_id) const {
+  return place_.partial / kPicturesFolder / (std::to_string(object_id) + ".jpg");
+}
+
+void RecordingWriter::remove_picture(std::uint64_t object_id) {
+  std::error_code ignored;  // one too many does no harm
+  fs::remove(picture_file(object_id), ignored);
+}
+
 void RecordingWriter::write_picture(std::uint64_t object_id, const std::string& jpeg) {
-  const fs::path pictures = place_.partial / kPicturesFolder;
-  make_folders(pictures);
+  const fs::path picture = picture_file(object_id);
+  make_folders(picture.parent_path());
   // Not synced: the estimate is worth the disk's time, a picture is not.
-  const fs::path picture = pictures / (std::to_string(object_id) + ".jpg");
   write_to(picture, [&] {
     OutputStream stream = OutputStream::file(picture);
     stream.write(jpeg);

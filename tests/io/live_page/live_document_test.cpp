@@ -179,6 +179,29 @@ TEST(LiveDocument, ABetterPictureOfAnObjectIsTold) {
   EXPECT_EQ(document.picture_of(1), nullptr);
 }
 
+TEST(LiveDocument, AForgottenPictureIsGoneAndItsObjectHasNone) {
+  LiveDocument document({"", true});
+  document.add(page_frame(1, 2));
+  document.show_object(2, "JPEG");
+  document.show_object(3, "JPEG of what no frame has");
+  Mirror page;
+  page.take(document);
+  ASSERT_TRUE(page.objects.at(2).contains("picture"));
+  for (const std::uint64_t id : {1, 2, 3}) document.forget_picture(id);
+  page.take(document);
+  EXPECT_FALSE(page.objects.at(2).contains("picture"));
+  for (const std::uint64_t id : {1, 2, 3}) EXPECT_EQ(document.picture_of(id), nullptr);
+}
+
+TEST(LiveDocument, HasRoomForANewPictureHoweverManyWereForgotten) {
+  LiveDocument document({"", true});
+  for (std::uint64_t id = 1; id <= 10'000; ++id) {
+    document.show_object(id, "JPEG");
+    ASSERT_NE(document.picture_of(id), nullptr) << id;
+    document.forget_picture(id);
+  }
+}
+
 TEST(LiveDocument, WhatARunEndsWithIsShown) {
   LiveDocument document({"", true});
   document.add(page_frame(1, 3));

@@ -94,6 +94,9 @@ TEST(Recording, KeepsNotesAndPicturesOfObjects) {
     writer.write_picture(17, "\xff\xd8\xff worse");
     writer.write_picture(17, jpeg);
     writer.write_picture(18, "no JPEG");
+    writer.write_picture(19, jpeg);
+    writer.remove_picture(19);
+    writer.remove_picture(20);  // there is none
     writer.finish();
   }
   append_notes(folder, {{at_us(1'000'160), 18, {-22.9, -43.1}, {"", Verdict::kDismissed}}});

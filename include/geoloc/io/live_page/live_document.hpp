@@ -48,6 +48,8 @@ class LiveDocument {
   std::optional<NotedObject> note(std::uint64_t id, const ObjectNote& note);
   /// A better picture of an object, a JPEG; the object may be unknown as yet.
   void show_object(std::uint64_t id, std::string jpeg);
+  /// The object is gone, or soon will be.
+  void forget_picture(std::uint64_t id);
   /// nullptr where there is none.
   std::shared_ptr<const std::string> picture_of(std::uint64_t id) const;
   /// A newer picture of the video can be fetched.

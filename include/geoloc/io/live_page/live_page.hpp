@@ -46,6 +46,7 @@ class LivePage {
   void show_playback(const std::string& json) { document_.show_playback(json); }
 
   void show_object(std::uint64_t id, std::string jpeg) { document_.show_object(id, std::move(jpeg)); }
+  void forget_picture(std::uint64_t id) { document_.forget_picture(id); }
 
   bool wants_picture() const { return board_.wants_picture(); }
   void show(LivePicture picture) { document_.announce_picture(board_.show(std::move(picture))); }

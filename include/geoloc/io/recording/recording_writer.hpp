@@ -53,6 +53,8 @@ class RecordingWriter {
   void add_note(const NotedObject& noted);
   /// An object's best picture so far, a JPEG; replaces the one before.
   void write_picture(std::uint64_t object_id, const std::string& jpeg);
+  /// The object is gone, and so is its picture, if there is one.
+  void remove_picture(std::uint64_t object_id);
 
   /// What was added survives a power cut from now on. It may take as long as the disk does.
   void sync();
@@ -70,6 +72,7 @@ class RecordingWriter {
   };
 
   static Place make_place(std::filesystem::path folder, NameTaken name_taken);
+  std::filesystem::path picture_file(std::uint64_t object_id) const;
 
   NameTaken name_taken_;
   Place place_;
