@@ -14,6 +14,9 @@ namespace {
 /// Between samples farther apart, the rates at both ends say little of the turn.
 constexpr Duration kLongestTurnPause = std::chrono::seconds{1};
 constexpr int kTurnsRemembered = 1000;
+/// A turn farther from what the rates make of it than noise explains was not told by them: a clock may have
+/// stopped between the two samples.
+constexpr double kMostSigmas = 6.0;
 
 /// About the body's axes [rad].
 Eigen::Vector3d turn_between(const EulerAngles& before, const EulerAngles& after) {
@@ -45,19 +48,31 @@ void TurnRates::observe(const AttitudeSample& sample) {
   by_attitudes_squared_ *= 0.5;
 }
 
+double TurnRates::slope() const {
+  return product_ / by_rates_squared_;
+}
+
+double TurnRates::noise_squared() const {
+  return (by_attitudes_squared_ - slope() * product_) / (3.0 * turns_);
+}
+
 bool TurnRates::are_believed() const {
   if (turns_ < 2 || !(by_rates_squared_ > 0.0)) return false;
-  const double slope = product_ / by_rates_squared_;
-  const double noise_squared = (by_attitudes_squared_ - slope * product_) / (3.0 * turns_);
-  return std::abs(slope - 1.0) < 0.5 && noise_squared < 0.25 * 0.25 * by_rates_squared_;
+  return std::abs(slope() - 1.0) < 0.5 && noise_squared() < 0.25 * 0.25 * by_rates_squared_;
 }
 
 Eigen::Vector3d TurnRates::between(const AttitudeSample& before, const AttitudeSample& after,
                                    double alpha) const {
-  if (are_believed() && tells_rates(before) && tells_rates(after))
+  const double pause_s = seconds(after.time - before.time);
+  const Eigen::Vector3d by_attitudes = turn_between(before.angles, after.angles) / pause_s;
+  if (!are_believed() || !tells_rates(before) || !tells_rates(after)) return by_attitudes;
+  const auto rates_at = [&](double share) {
     return Interpolator<Eigen::Vector3d>::between(*before.rates_in_body_radps, *after.rates_in_body_radps,
-                                                  alpha);
-  return turn_between(before.angles, after.angles) / seconds(after.time - before.time);
+                                                  share);
+  };
+  const double unexplained_rad = pause_s * (by_attitudes - rates_at(0.5)).norm();
+  return unexplained_rad * unexplained_rad < kMostSigmas * kMostSigmas * noise_squared() ? rates_at(alpha)
+                                                                                         : by_attitudes;
 }
 
 }  // namespace geoloc

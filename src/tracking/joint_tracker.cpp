@@ -289,8 +289,10 @@ void JointTracker::watch_clock(const LocatedFrame& located) {
 /// What was seen with a wrong latency from the flight's start on is worth nothing.
 void JointTracker::begin_anew(const LatencyPrior& latency) {
   ++book_.counters.latency_changes;
+  false_starts_ = 0;
   forget_flight();
   errors_.begin_latency(latency);
+  latency_watch_.begin_anew();
 }
 
 /// Attitudes far noisier than expected pull the first height down to the ground, where no look contradicts
@@ -318,7 +320,6 @@ void JointTracker::forget_flight() {
   heights_.clear();
   errors_.noise = NoiseEstimate(std::ldexp(config_.sigma_attitude_deg * kRadPerDeg, false_starts_));
   errors_.calibration = solver_.prior(errors_.prior());
-  latency_watch_.begin_anew();
   schedule_ = SolutionSchedule(config_.solve_period_s);
 }
 

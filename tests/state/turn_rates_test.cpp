@@ -85,6 +85,19 @@ TEST(TurnRates, AreNotHurtByTheNoiseOfAttitudes) {
   EXPECT_LT(rms_error_radps(vehicle, rates), 1e-3);
 }
 
+/// The vehicle's clock stood still while it turned.
+TEST(TurnRates, DoNotStandForATurnThatTheyDoNotExplain) {
+  for (const double noise_deg : {0.0, 0.1}) {
+    TurnRates rates;
+    Rolling vehicle(noise_deg, 1.0);
+    vehicle.tell(60.0, rates);
+    const AttitudeSample before = vehicle.at(70.0);
+    AttitudeSample after = vehicle.at(70.1);
+    after.angles.yaw_rad += 0.5;
+    EXPECT_NEAR(rates.between(before, after, 0.5).norm(), 5.0, 0.3);
+  }
+}
+
 TEST(TurnRates, ThatAreWrongAreNotBelieved) {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (const double per_true_rate : {0.0, -1.0, 1.0 / kRadPerDeg, kRadPerDeg, kNaN}) {

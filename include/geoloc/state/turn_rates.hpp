@@ -28,6 +28,11 @@ class TurnRates {
   bool are_believed() const;
 
  private:
+  /// Of turns as the attitudes tell them, over those by the rates.
+  double slope() const;
+  /// Variance of what that leaves, per axis [rad^2].
+  double noise_squared() const;
+
   std::optional<AttitudeSample> newest_;
   // Sums of squares and products of turns, as told by the attitudes and by the rates [rad^2].
   double by_rates_squared_ = 0.0, product_ = 0.0, by_attitudes_squared_ = 0.0;
