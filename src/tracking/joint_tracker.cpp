@@ -308,6 +308,10 @@ void JointTracker::go_on_with_latency(const LatencyPrior& latency, const Located
     ++book_.counters.removed;
   });
   recent_looks_.take_out(proven_at_ + Duration{1}, errors_.drift, tracks_);
+  opening_looks_.close();  // its frames have the latency of before
+  for (std::size_t row = tracks_.size(); row-- > 0;) {
+    if (!has_looks(tracks_[row]) && !tracks_[row].is_known) remove(row);  // its earlier ones were false
+  }
   if (const auto before =
           solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_, &sleeping_.settled()))
     errors_.take(*before);
@@ -418,10 +422,11 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
     look.observation =
         look_maker_.linearised_at(track.position_in_enu, look, frame_looks.share_attitude, frame, errors_);
     add_to_sums(track, look, errors_);
-    // Those are not counted as clutter: a dozen of the first seconds would make every new object improbable.
-    drop_false_looks(track, look, false_odds, errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
     recent_looks_.add(track.track.id, frame.time(), look);
+    // Those are not counted as clutter: a dozen of the first seconds would make every new object improbable.
+    if (const auto false_look = drop_false_looks(track, look, false_odds, errors_))
+      recent_looks_.forget(track.track.id, false_look->observation);
     confirm_if_probable(track, config_.confirm_probability);
     if (track.is_confirmed()) confidence_.count_object(looks[i].detection.confidence);
   }
@@ -492,7 +497,8 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
                                                              const JointFrame& frame) {
   follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
-    opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
+    opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_,
+                                  recent_looks_);
   errors_.believe_in_sway(fast_position_variance_m2(config_, errors_), frame.repetition.lasts());
   const auto solution =
       solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_, &sleeping_.settled());
