@@ -22,10 +22,6 @@ namespace {
 
 using Index = CalibrationIndex;
 
-/// Bounds of what the reported accuracy is believed to be wrong by.
-constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
-/// Bounds of what a vehicle's reported accuracy is believed to be [m].
-constexpr double kLeastAccuracy_m = 0.02, kMostAccuracy_m = 100.0;
 /// A known point that is nearer to the image's edge is not covered; share of the image's height.
 constexpr double kCoverMargin = 0.1;
 /// Sleeping objects that are brought up to date with each frame.
@@ -337,8 +333,7 @@ void JointTracker::bound_height(const Projector& projector, const FrameView& vie
 
 JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   const VehicleState& vehicle = located.view.vehicle;
-  if (vehicle.sigma_horizontal_m)
-    errors_.accuracy.radial_m = std::clamp(*vehicle.sigma_horizontal_m, kLeastAccuracy_m, kMostAccuracy_m);
+  if (vehicle.sigma_horizontal_m) errors_.accuracy.report(*vehicle.sigma_horizontal_m);
   const double ground_height_m =
       located.projector.config().ground_height_above_home_m + located.view.lifted_m;
   if (errors_.drift.size() == 0) {
@@ -513,7 +508,7 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
 void JointTracker::learn_wandering(const Solution& solution) {
   if (!schedule_.teaches_wandering()) return;
   const auto wandering = solution.observed_wandering(errors_.drift);
-  if (wandering) errors_.drift.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
+  if (wandering) errors_.drift.set_position_scale(errors_.accuracy.believed_scale(*wandering));
 }
 
 void JointTracker::merge_compatible(const Solution& solution, const JointFrame& frame,
