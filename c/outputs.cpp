@@ -90,6 +90,8 @@ geoloc_calibration to_c(const Calibration& calibration) {
   result.sigma_height_m = calibration.sigma(Index::kHeight);
   result.focal_ratio = calibration.focal_ratio();
   result.sigma_focal_ratio = calibration.focal_ratio() * calibration.sigma(Index::kFocal);
+  result.position_lag_s = calibration.position_lag_s();
+  result.sigma_position_lag_s = calibration.sigma(Index::kPositionLag);
   for (int axis = 0; axis < 2; ++axis) {
     result.offset_m[axis] = calibration.offset_m()[axis];
     result.sigma_offset_m[axis] = calibration.sigma(Index::kOffset + axis);

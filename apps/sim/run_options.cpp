@@ -65,6 +65,16 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kFlightGroup, "--telemetry-rate", options.telemetry_rate_hz,
       "Attitudes and positions a second [as flown]")
       ->check(CLI::Range(0.1, 100.0));
+  CLI::Option* const attitude_noise =
+      add(kHiddenGroup, "--attitude-noise-deg", options.attitude_noise.sigma_deg,
+          "1-sigma of what roll, pitch and yaw are off by besides, deg")
+          ->capture_default_str()
+          ->check(CLI::Range(0.0, 45.0));
+  add(kHiddenGroup, "--attitude-noise-s", options.attitude_noise.time_constant_s,
+      "How long that lasts, s; 0: it is another in each message")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1e4))
+      ->needs(attitude_noise);
   add(kFlightGroup, "--start-s", settings.start_s, "Begin, s on the vehicle's clock [at survey height]");
   add(kFlightGroup, "--end-s", settings.end_s, "End, s on the vehicle's clock [survey height left]");
 
@@ -131,6 +141,7 @@ Flight load_flight(const RunOptions& options) {
   Flight flight = load_flight(find_flights(options.data_folder, program), options.flight);
   if (options.raised_m != 0.0) flight = raised(flight, options.raised_m);
   if (options.telemetry_rate_hz) flight = at_telemetry_rate(flight, *options.telemetry_rate_hz);
+  if (options.attitude_noise.sigma_deg > 0.0) flight = with_attitude_noise(flight, options.attitude_noise);
   if (!options.jump.empty()) flight = with_jump(flight, state_jump(options.jump, flight.truth));
   if (is_px4(options)) flight = as_px4(flight);
   return flight;

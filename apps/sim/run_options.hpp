@@ -7,6 +7,7 @@
 
 #include "geoloc/sim/flight/flight.hpp"
 #include "geoloc/sim/flight/run_settings.hpp"
+#include "geoloc/sim/live/flight_variants.hpp"
 #include "sim/gimbal_options.hpp"
 
 namespace geoloc::sim {
@@ -18,6 +19,7 @@ struct RunOptions {
   std::optional<std::string> data_folder;
   double raised_m = 0.0;
   std::string jump;  ///< its name; empty: none
+  AttitudeNoise attitude_noise;
   std::optional<double> telemetry_rate_hz;
   double horizontal_fov_deg = 70.0;
   std::array<double, 5> distortion{};

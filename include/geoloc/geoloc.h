@@ -226,6 +226,7 @@ typedef struct geoloc_calibration {
   double height_m, sigma_height_m;         /* the camera is so much higher than reported */
   double focal_ratio, sigma_focal_ratio;   /* the true focal length by the nominal one */
   double offset_m[2], sigma_offset_m[2];   /* the vehicle is so much east, north of where it reports to be */
+  double position_lag_s, sigma_position_lag_s; /* the reported position is so much older than the attitude */
 } geoloc_calibration;
 geoloc_status geoloc_calibration_of(const geoloc_geolocator *geolocator, geoloc_calibration *calibration);
 

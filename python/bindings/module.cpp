@@ -29,6 +29,8 @@ std::optional<Fields> calibration_of(const std::optional<Calibration>& learnt) {
   fields["sigma_height_m"] = learnt->sigma(Index::kHeight);
   fields["focal_percent"] = learnt->focal_percent();
   fields["sigma_focal_percent"] = learnt->sigma_focal_percent();
+  fields["position_lag_s"] = learnt->position_lag_s();
+  fields["sigma_position_lag_s"] = learnt->sigma(Index::kPositionLag);
   fields["offset_m"] = nb::make_tuple(learnt->offset_m().x(), learnt->offset_m().y());
   fields["sigma_offset_m"] = nb::make_tuple(learnt->sigma(Index::kOffset), learnt->sigma(Index::kOffset + 1));
   return fields;

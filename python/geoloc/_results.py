@@ -59,6 +59,9 @@ class Calibration:
     focal_percent: float
     """The focal length is this much longer than the nominal one."""
     sigma_focal_percent: float
+    position_lag_s: float
+    """The reported position is that of the vehicle this much earlier, as seen against its attitude."""
+    sigma_position_lag_s: float
     offset_m: tuple[float, float]
     """The vehicle is this much east and north of where it reports to be."""
     sigma_offset_m: tuple[float, float]

@@ -39,10 +39,11 @@ ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, const DriftConfi
   runs_.reserve(Landmark::kMaxNodes + Landmark::kMaxSpells + 1);
   const double focal_ratio = 1.0 + 0.01 * prior.focal_percent;
   prior_mean_ << prior.boresight_x_deg * kRadPerDeg, prior.boresight_y_deg * kRadPerDeg,
-      prior.boresight_z_deg * kRadPerDeg, prior.latency_s, 0.0, std::log(focal_ratio), 0.0, 0.0;
+      prior.boresight_z_deg * kRadPerDeg, prior.latency_s, 0.0, std::log(focal_ratio), prior.position_lag_s,
+      0.0, 0.0;
   prior_sigma_ << prior.sigma_boresight_x_deg * kRadPerDeg, prior.sigma_boresight_y_deg * kRadPerDeg,
       prior.sigma_boresight_z_deg * kRadPerDeg, prior.sigma_latency_s, 0.0,
-      0.01 * prior.sigma_focal_percent / focal_ratio, 0.0, 0.0;
+      0.01 * prior.sigma_focal_percent / focal_ratio, prior.sigma_position_lag_s, 0.0, 0.0;
 }
 
 Calibration ArrowheadSolver::prior(const FlightPrior& flight) const {

@@ -20,6 +20,8 @@ void visit_fields(Visitor& v, CalibrationPrior& prior) {
           "The camera is this much higher above the ground than reported");
   v.field("focal_percent", prior.focal_percent, Range::closed(-50, 50), "%",
           "The camera's focal length is this much longer than it is said to be");
+  v.field("position_lag_s", prior.position_lag_s, Range::closed(-1, 1), "s",
+          "The vehicle reports where it was this long before, as seen against its attitude");
   v.field("sigma_boresight_x_deg", prior.sigma_boresight_x_deg, kSigma, "deg",
           "1-sigma of boresight_x_deg before the flight; 0 freezes it");
   v.field("sigma_boresight_y_deg", prior.sigma_boresight_y_deg, kSigma, "deg",
@@ -34,6 +36,10 @@ void visit_fields(Visitor& v, CalibrationPrior& prior) {
   v.field("sigma_focal_percent", prior.sigma_focal_percent, Range::closed(0, 50), "%",
           "1-sigma of focal_percent before the flight: 0.3 for a calibrated camera, 2 for a data sheet's "
           "field of view, 3 to 5 for an equivalent for film of 35 mm; 0 freezes it");
+  v.field("sigma_position_lag_s", prior.sigma_position_lag_s, Range::closed(0, 1), "s",
+          "1-sigma of position_lag_s before the flight: autopilots allow for their receiver's delay by a "
+          "guess; 0 "
+          "freezes it");
 }
 
 }  // namespace geoloc

@@ -32,6 +32,7 @@ FixJacobians jacobians_of(const GroundFix& fix, const FrameView& view, double he
   const Eigen::Vector3d& velocity = view.vehicle.velocity_in_enu;
   jacobians.calibration.col(Index::kLatency) =
       -velocity.head<2>() - ground_from_height * velocity.z() - ground_from_turn * view.turn.rate_in_enu;
+  jacobians.calibration.col(Index::kPositionLag) = velocity.head<2>() + ground_from_height * velocity.z();
   jacobians.calibration.col(Index::kHeight) = ground_from_height;
   // A longer focal length draws every ray to the optical axis a: R (x, y, 1) becomes R (x, y, 1 + e), which
   // is v + e (v . a) a for a direction of any length.

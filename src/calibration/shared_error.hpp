@@ -9,12 +9,12 @@ namespace geoloc {
 /// cancels between a look and a track that looks made), drift of the vehicle's state, noise of the frame.
 /// All Jacobians by it are whitened: by its components in units in which their prior covariance is one.
 struct SharedError {
-  static constexpr int kCalibrationSize = 6;
-  static constexpr int kCalibration = 0;  ///< boresight, latency, height, focal length
-  static constexpr int kDrift = 6;        ///< east, north, up, yaw
-  static constexpr int kFrame = 10;       ///< east, north
-  static constexpr int kTime = 12;        ///< of the frame's stamp
-  static constexpr int kSize = 13;
+  static constexpr int kCalibrationSize = 7;
+  static constexpr int kCalibration = 0;  ///< boresight, latency, height, focal length, position's lag
+  static constexpr int kDrift = 7;        ///< east, north, up, yaw
+  static constexpr int kFrame = 11;       ///< east, north
+  static constexpr int kTime = 13;        ///< of the frame's stamp
+  static constexpr int kSize = 14;
 
   using Vector = Eigen::Matrix<double, kSize, 1>;
   using Matrix = Eigen::Matrix<double, kSize, kSize>;

@@ -37,7 +37,7 @@ double PositionAccuracy::wandering_sigma_m() const {
 }
 
 double PositionAccuracy::offset_sigma_m(double wandering_scale) const {
-  const double sigma_m = std::sqrt(0.5 * constant_share) * radial_m;
+  const double sigma_m = std::max(stated_offset_sigma_m, std::sqrt(0.5 * constant_share) * radial_m);
   return std::max(least_offset_sigma_m, wandering_scale * sigma_m);
 }
 

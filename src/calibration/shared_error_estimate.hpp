@@ -18,9 +18,12 @@ namespace geoloc {
 /// among the errors of its position.
 struct PositionAccuracy {
   double radial_m;
-  double constant_share;        ///< share of the variance that stays constant over a flight; the rest wanders
-  double least_offset_sigma_m;  ///< of the constant error, per axis
-  bool is_reported = false;     ///< by the vehicle, and not assumed
+  double constant_share;  ///< share of the variance that stays constant over a flight; the rest wanders
+  /// Least 1-sigma of the constant error, per axis: before the flight shows how much the position wanders (an
+  /// RTK fix states centimetres against its base, and nothing of where that stands), and whatever it shows.
+  double stated_offset_sigma_m;
+  double least_offset_sigma_m;
+  bool is_reported = false;  ///< the radial one, by the vehicle; else it is assumed
 
   /// What the vehicle says of itself from now on.
   void report(double reported_radial_m);

@@ -53,6 +53,8 @@ FrameView calibrated(FrameView nominal_view, const Calibration& calibration, dou
   calibration.turn(nominal_view.enu_from_camera);
   nominal_view.focal_ratio = calibration.focal_ratio();
   nominal_view.lifted_m = lift_m - nominal_view.terrain_m;
+  nominal_view.enu_from_camera.translation +=
+      calibration.position_lag_s() * nominal_view.vehicle.velocity_in_enu;
   nominal_view.enu_from_camera.translation.z() += nominal_view.lifted_m;
   return nominal_view;
 }

@@ -79,12 +79,6 @@ Eigen::Quaterniond interpolate_attitude(const EulerAngles& before, const EulerAn
   return Interpolator<Eigen::Quaterniond>::between(ned_from_body(before), ned_from_body(after), alpha);
 }
 
-Eigen::Vector3d angular_velocity_in_body(const EulerAngles& before, const EulerAngles& after,
-                                         Duration spacing) {
-  const Eigen::AngleAxisd turn(ned_from_body(before).conjugate() * ned_from_body(after));
-  return wrap_to_pi(turn.angle()) / seconds(spacing) * turn.axis();
-}
-
 }  // namespace
 
 std::vector<std::string> StateConfig::problems() const {
@@ -125,6 +119,7 @@ void StateProvider::forget_samples() {
   gimbal_.restart();
   zoom_.restart();
   newest_gimbal_.reset();
+  turn_rates_.restart();
   if (unconfirmed_) frame_.reset();
   unconfirmed_.reset();
   home_.restart();
@@ -149,7 +144,8 @@ void StateProvider::add(const AttitudeSample& sample) {
     ++counters_.stale;
     return;
   }
-  if (attitudes_.insert(sample.time, {sample.angles, *steps})) gimbal_.note_vehicle(sample.angles);
+  turn_rates_.observe(sample);
+  if (attitudes_.insert(sample.time, {sample, *steps})) gimbal_.note_vehicle(sample.angles);
 }
 
 void StateProvider::add(const GimbalSample& sample) {
@@ -182,8 +178,8 @@ void StateProvider::compare_with_vehicle(const GimbalSample& gimbal) {
   constexpr Duration kLongestGap = std::chrono::seconds{1};
   const auto attitude = attitudes_.bracket(gimbal.time, kLongestGap, Duration::zero());
   if (!attitude || step_in(*attitude)) return;
-  const EulerAngles angles =
-      Interpolator<EulerAngles>::between(attitude->before.value, attitude->after.value, attitude->alpha);
+  const EulerAngles angles = Interpolator<EulerAngles>::between(
+      attitude->before.value.angles, attitude->after.value.angles, attitude->alpha);
   gimbal_.compare(gimbal, angles.yaw_rad - attitude->before.steps.size[3]);
 }
 
@@ -262,7 +258,8 @@ Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
   if (!found) return found.error();
   const auto& [position, attitude] = *found;
   const LocalPosition &place_before = position.before.value, &place_after = position.after.value;
-  const EulerAngles &angles_before = attitude.before.value, &angles_after = attitude.after.value;
+  const EulerAngles &angles_before = attitude.before.value.angles,
+                    &angles_after = attitude.after.value.angles;
   const LocalPosition here = Interpolator<LocalPosition>::between(place_before, place_after, position.alpha);
 
   VehicleState state;
@@ -281,7 +278,8 @@ Expected<VehicleState, NoState> StateProvider::at(VehicleTime time) const {
     state.velocity_in_enu =
         (place_after.position_in_enu - place_before.position_in_enu) / seconds(position.spacing);
   if (attitude.spacing > Duration::zero())
-    state.angular_velocity_in_body = angular_velocity_in_body(angles_before, angles_after, attitude.spacing);
+    state.angular_velocity_in_body =
+        turn_rates_.between(attitude.before.value, attitude.after.value, attitude.alpha);
   state.sigma_position_m = position.sigma(kAcceleration_mps2);
   state.sigma_turn_rad = attitude.sigma(kAngularAcceleration_radps2);
   state.sigma_bend_rad = attitude.sigma(state.angular_velocity_in_body.norm() / kTurnChange_s);

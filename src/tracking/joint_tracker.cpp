@@ -35,12 +35,18 @@ JointTrackerConfig checked(const JointTrackerConfig& config) {
 }
 
 PositionAccuracy accuracy_of(const JointTrackerConfig& config) {
-  return {config.horizontal_accuracy_m, config.constant_share, config.least_offset_sigma_m};
+  return {config.horizontal_accuracy_m, config.constant_share, config.stated_offset_sigma_m,
+          config.least_offset_sigma_m};
 }
 
 /// What looks tell of the focal length is off by so much in flights where it was right (docs/method.md), more
 /// than their noise explains: the autopilot's tilts are in it, which the image shows by the focal length.
 constexpr double kSigmaOfFoundFocal = 0.006;
+
+/// A camera at this share of the height that its vehicle reports, or lower, stands on the ground.
+constexpr double kOnTheGround = 0.1;
+/// So often the flight's first looks are explained anew, each time with twice the noise of the attitude.
+constexpr int kMostFalseStarts = 2;
 
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
 constexpr double kSigmaOfFoundLatency_s = 0.1;
@@ -117,6 +123,8 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
   const double attitude = config_.sigma_attitude_bias_deg * kRadPerDeg;
   camera.covariance.diagonal().segment<3>(Index::kBoresight).array() += attitude * attitude;
   camera.covariance(Index::kLatency, Index::kLatency) +=
+      config_.sigma_state_lag_s * config_.sigma_state_lag_s;
+  camera.covariance(Index::kPositionLag, Index::kPositionLag) +=
       config_.sigma_state_lag_s * config_.sigma_state_lag_s;
   if (camera.has_unknown_focal())
     camera.covariance(Index::kFocal, Index::kFocal) += std::pow(kSigmaOfFoundFocal, 2);
@@ -277,6 +285,25 @@ void JointTracker::watch_clock(const LocatedFrame& located) {
 /// What was seen with a wrong latency from the flight's start on is worth nothing.
 void JointTracker::begin_anew(const LatencyPrior& latency) {
   ++book_.counters.latency_changes;
+  forget_flight();
+  errors_.begin_latency(latency);
+}
+
+/// Attitudes far noisier than expected pull the first height down to the ground, where no look contradicts
+/// another, and any latency explains them as well.
+bool JointTracker::is_false_start(const LocatedFrame& located) const {
+  if (!opening_looks_.is_open() || false_starts_ == kMostFalseStarts) return false;
+  const double above_ground_m = height_above_plane_m(located.projector, located.view);
+  const double reported_m = above_ground_m - located.view.lifted_m - located.view.terrain_m;
+  return reported_m + errors_.calibration.height_m() < kOnTheGround * reported_m;
+}
+
+void JointTracker::start_over() {
+  ++false_starts_;
+  forget_flight();
+}
+
+void JointTracker::forget_flight() {
   while (tracks_.size() > 0) remove(tracks_.size() - 1);
   book_.counters.removed += sleeping_.size();
   sleeping_.clear();
@@ -285,9 +312,8 @@ void JointTracker::begin_anew(const LatencyPrior& latency) {
   recent_looks_.clear();
   errors_.drift.clear();
   heights_.clear();
-  errors_.noise = NoiseEstimate(config_.sigma_attitude_deg * kRadPerDeg);
+  errors_.noise = NoiseEstimate(std::ldexp(config_.sigma_attitude_deg * kRadPerDeg, false_starts_));
   errors_.calibration = solver_.prior(errors_.prior());
-  errors_.begin_latency(latency);
   latency_watch_.begin_anew();
   schedule_ = SolutionSchedule(config_.solve_period_s);
 }
@@ -478,6 +504,7 @@ void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, 
   schedule_.begin_solution(frame.time());
   const auto solution = solve(located, frame);
   if (!solution) return;
+  if (is_false_start(located)) return start_over();
   learn_wandering(*solution);
   merge_compatible(*solution, frame, noise);
   const std::size_t budget = known_points_.is_empty() ? kCovariancesPerSolution : tracks_.size();

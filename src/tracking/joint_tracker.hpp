@@ -79,6 +79,9 @@ class JointTracker final : public Tracker {
   void remove(std::size_t row);
   void watch_start(const LocatedFrame& located);
   void begin_anew(const LatencyPrior& latency);
+  bool is_false_start(const LocatedFrame& located) const;
+  void start_over();
+  void forget_flight();
   void go_on_with_latency(const LatencyPrior& latency, const LocatedFrame& frame);
   void refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise);
   std::optional<Solution> solve(const LocatedFrame& located, const JointFrame& frame);
@@ -113,6 +116,7 @@ class JointTracker final : public Tracker {
   KnownPointMatcher known_points_;
   TrackTable tracks_;
   OpeningLooks opening_looks_;
+  int false_starts_ = 0;
   RecentLooks recent_looks_;
   MovingTracker moving_;
   TrackBook book_;

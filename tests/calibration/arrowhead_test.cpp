@@ -664,11 +664,13 @@ TEST(ArrowheadSolver, StatesThePriorInRadiansMetresAndSeconds) {
   prior.sigma_boresight_y_deg = 5.0;
   prior.sigma_boresight_z_deg = 0.0;
   prior.sigma_latency_s = 0.2;
+  prior.position_lag_s = -0.02;
+  prior.sigma_position_lag_s = 0.03;
   const ArrowheadSolver solver(prior, DriftConfig{});
   constexpr double kDegree = 3.14159265358979323846 / 180.0;
   CalibrationVector mean, sigma;
-  mean << kDegree, -2.0 * kDegree, 3.0 * kDegree, 0.1, -0.4, 0.0, 0.0, 0.0;
-  sigma << 4.0 * kDegree, 5.0 * kDegree, 0.0, 0.2, 0.6, 0.0, 0.7, 0.7;
+  mean << kDegree, -2.0 * kDegree, 3.0 * kDegree, 0.1, -0.4, 0.0, -0.02, 0.0, 0.0;
+  sigma << 4.0 * kDegree, 5.0 * kDegree, 0.0, 0.2, 0.6, 0.0, 0.03, 0.7, 0.7;
   const Calibration stated = solver.prior({-0.4, 0.6, 0.7});
   EXPECT_LT((stated.mean - mean).norm(), 1e-12);
   for (int i = 0; i < CalibrationIndex::kSize; ++i) {

@@ -74,7 +74,7 @@ TEST(Calibration, TurnsAboutAllAxesAtOnceByTheLengthOfTheVector) {
 
 TEST(Calibration, TurnsACameraAndMovesItNowhere) {
   Calibration calibration;
-  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 0.02, 7.0, -8.0;
+  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 0.02, 0.04, 7.0, -8.0;
   Rigid3d pose = looking_down();
   calibration.turn(pose);
   EXPECT_EQ(pose.translation, looking_down().translation);
@@ -83,7 +83,7 @@ TEST(Calibration, TurnsACameraAndMovesItNowhere) {
 
 TEST(Calibration, TurnsBackByItsOpposite) {
   Calibration calibration, opposite;
-  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 0.02, 7.0, -8.0;
+  calibration.mean << 0.1, -0.2, 0.3, 0.5, 1.25, 0.02, 0.04, 7.0, -8.0;
   opposite.mean = -calibration.mean;
   Rigid3d pose = looking_down();
   calibration.turn(pose);
@@ -93,12 +93,13 @@ TEST(Calibration, TurnsBackByItsOpposite) {
 
 TEST(Calibration, NamesItsComponents) {
   Calibration calibration;
-  calibration.mean << 1, 2, 3, 4, 5, 6, 7, 8;
-  calibration.covariance.diagonal() << 1, 4, 9, 16, 25, 36, 49, 64;
+  calibration.mean << 1, 2, 3, 4, 5, 6, 7, 8, 9;
+  calibration.covariance.diagonal() << 1, 4, 9, 16, 25, 36, 49, 64, 81;
   EXPECT_EQ(calibration.boresight_rad(), Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(calibration.latency_s(), 4.0);
   EXPECT_EQ(calibration.height_m(), 5.0);
-  EXPECT_EQ(calibration.offset_m(), Eigen::Vector2d(7, 8));
+  EXPECT_EQ(calibration.position_lag_s(), 7.0);
+  EXPECT_EQ(calibration.offset_m(), Eigen::Vector2d(8, 9));
   for (int i = 0; i < Index::kSize; ++i) EXPECT_EQ(calibration.sigma(i), i + 1.0);
 }
 

@@ -45,6 +45,8 @@ class ExactFix {
     view.vehicle.enu_from_body.translation =
         Eigen::Vector3d(5, -3, regime_.height_m) + t * regime_.velocity_in_enu;
     view.vehicle.enu_from_body.translation += drift.head<3>();
+    view.vehicle.enu_from_body.translation +=
+        calibration[CalibrationIndex::kPositionLag] * regime_.velocity_in_enu;
     view.vehicle.enu_from_body.translation.head<2>() += calibration.segment<2>(CalibrationIndex::kOffset);
     view.vehicle.velocity_in_enu = regime_.velocity_in_enu;
     view.turn.rate_in_enu = view.vehicle.enu_from_body.rotation * rate;

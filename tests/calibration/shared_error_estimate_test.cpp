@@ -16,21 +16,28 @@ namespace {
 using Index = CalibrationIndex;
 
 TEST(PositionAccuracy, DividesAmongTheAxesAndBetweenWhatStaysAndWhatWanders) {
-  const PositionAccuracy accuracy{2.0, 0.25, 0.1};
+  const PositionAccuracy accuracy{2.0, 0.25, 0.0, 0.1};
   const double wandering = accuracy.wandering_sigma_m(), offset = accuracy.offset_sigma_m(1.0);
   EXPECT_NEAR(2.0 * (wandering * wandering + offset * offset), 4.0, 1e-12);  // the radius' square
   EXPECT_NEAR(offset * offset / (wandering * wandering), 0.25 / 0.75, 1e-12);
 }
 
 TEST(PositionAccuracy, OfAReceiverThatWandersLessIsBetterButForAFloor) {
-  const PositionAccuracy accuracy{2.0, 0.25, 0.1};
+  const PositionAccuracy accuracy{2.0, 0.25, 0.0, 0.1};
   EXPECT_NEAR(accuracy.offset_sigma_m(0.5), 0.5 * accuracy.offset_sigma_m(1.0), 1e-12);
   EXPECT_NEAR(accuracy.offset_sigma_m(2.0), 2.0 * accuracy.offset_sigma_m(1.0), 1e-12);
   EXPECT_EQ(accuracy.offset_sigma_m(0.01), 0.1);
 }
 
+TEST(PositionAccuracy, OfAFixThatStatesNextToNothingIsNotBelievedUntilTheFlightShowsIt) {
+  const PositionAccuracy rtk{0.02, 0.15, 0.04, 0.02};
+  EXPECT_EQ(rtk.offset_sigma_m(1.0), 0.04);
+  EXPECT_NEAR(rtk.offset_sigma_m(0.8), 0.032, 1e-12);
+  EXPECT_EQ(rtk.offset_sigma_m(0.1), 0.02);
+}
+
 TEST(PositionAccuracy, ThatIsReportedIsBelievedToBeWrongByAFactorAtMost) {
-  PositionAccuracy accuracy{2.0, 0.25, 0.1};
+  PositionAccuracy accuracy{2.0, 0.25, 0.1, 0.1};
   accuracy.report(0.5);
   EXPECT_EQ(accuracy.radial_m, 0.5);
   EXPECT_EQ(accuracy.believed_scale(0.5), 0.5);
@@ -40,10 +47,10 @@ TEST(PositionAccuracy, ThatIsReportedIsBelievedToBeWrongByAFactorAtMost) {
 
 /// Whatever was assumed, the flight may show that the vehicle is as good as the best that report themselves.
 TEST(PositionAccuracy, ThatIsAssumedDoesNotKeepAFlightFromShowingABetterOne) {
-  PositionAccuracy best{1.0, 0.25, 0.1};
+  PositionAccuracy best{1.0, 0.25, 0.1, 0.1};
   best.report(1e-6);
   for (const double assumed_m : {0.3, 0.85, 2.0}) {
-    const PositionAccuracy accuracy{assumed_m, 0.25, 0.1};
+    const PositionAccuracy accuracy{assumed_m, 0.25, 0.1, 0.1};
     EXPECT_NEAR(accuracy.believed_scale(1e-6) * accuracy.wandering_sigma_m(), best.wandering_sigma_m(), 1e-9);
     EXPECT_EQ(accuracy.believed_scale(0.5), 0.5);
     EXPECT_EQ(accuracy.believed_scale(7.0), 3.0);
@@ -83,7 +90,7 @@ class SharedErrors : public ::testing::Test {
   }
 
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
-  PositionAccuracy accuracy_{1.0, 0.2, 0.02};
+  PositionAccuracy accuracy_{1.0, 0.2, 0.02, 0.02};
   HeightPrior height_prior_{0.4, 1.5};
   SharedErrorEstimate estimate_{accuracy_, height_prior_, testing::kNoise, DriftConfig{}, solver_};
   FlightPrior prior_ = estimate_.prior();  // of every solution, so that all are the same
@@ -102,7 +109,8 @@ TEST(FrozenSharedErrors, HaveARootBesideTheOthers) {
   CalibrationPrior prior;
   prior.sigma_boresight_y_deg = 0.0;
   const ArrowheadSolver solver(prior, DriftConfig{});
-  const SharedErrorEstimate estimate({1.0, 0.2, 0.02}, {0.0, 2.0}, testing::kNoise, DriftConfig{}, solver);
+  const SharedErrorEstimate estimate({1.0, 0.2, 0.02, 0.02}, {0.0, 2.0}, testing::kNoise, DriftConfig{},
+                                     solver);
   EXPECT_NEAR(estimate.calibration_root(Index::kBoresight + 1, Index::kBoresight + 1), 0.0, 1e-8);
   for (const int free : {Index::kBoresight, Index::kBoresight + 2, Index::kLatency, Index::kHeight})
     EXPECT_NEAR(estimate.calibration_root(free, free), estimate.calibration.sigma(free), 1e-9);

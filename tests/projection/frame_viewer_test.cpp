@@ -52,6 +52,15 @@ class FrameViews : public ::testing::Test {
   int samples_ = 0;
 };
 
+TEST_F(FrameViews, AreFromWhereTheVehicleIsOnceItsPositionsLagIsKnown) {
+  fly_until(10.0);
+  Calibration calibration;
+  calibration.mean[CalibrationIndex::kPositionLag] = 0.1;
+  const FrameView corrected = calibrated(*view(6.0, 0.0), calibration, 2.0);
+  const Eigen::Vector3d lifted = place_at(6.1) + Eigen::Vector3d(0.0, 0.0, 2.0);
+  EXPECT_LT((corrected.enu_from_camera.translation - lifted).norm(), 1e-3);
+}
+
 TEST_F(FrameViews, AreFromWhereTheVehicleWasByTheLatencyBeforeTheStamp) {
   fly_until(10.0);
   for (const double latency_s : {0.0, 0.04, 0.25, 3.0, -0.5}) {  // a stamp may be too early, too

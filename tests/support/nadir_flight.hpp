@@ -118,12 +118,13 @@ inline GeolocatorConfig noisy_by_the_detector_alone() {
   JointTrackerConfig& joint = config.joint;
   joint.prior.sigma_boresight_x_deg = joint.prior.sigma_boresight_y_deg = 0.0;
   joint.prior.sigma_boresight_z_deg = joint.prior.sigma_latency_s = joint.prior.sigma_height_m = 0.0;
+  joint.prior.sigma_position_lag_s = 0.0;
   joint.drift.sigma_up_m = 1e-6;
   joint.drift.sigma_yaw_deg = 1e-6;
   joint.sigma_attitude_deg = 1e-6;
   joint.sigma_time_s = 0.0;
   joint.horizontal_accuracy_m = 1e-6;
-  joint.least_offset_sigma_m = 0.0;
+  joint.stated_offset_sigma_m = joint.least_offset_sigma_m = 0.0;
   joint.fast_share = 0.0;
   return config;
 }

@@ -52,7 +52,7 @@ class FalseLooks : public ::testing::Test {
   std::normal_distribution<double> normal_;
   ArrowheadSolver solver_{{}, {}};
   SharedErrorEstimate errors_{
-      PositionAccuracy{0.3, 0.15, 0.04}, testing::kHeightPrior, NoiseEstimate(0.002), {}, solver_};
+      PositionAccuracy{0.3, 0.15, 0.04, 0.04}, testing::kHeightPrior, NoiseEstimate(0.002), {}, solver_};
   TrackTable tracks_{1000};
 };
 

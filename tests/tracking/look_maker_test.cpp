@@ -74,7 +74,7 @@ class LooksFromAbove : public ::testing::Test {
   JointTrackerConfig config_;
   Projector projector_{{}, intrinsics()};
   FrameView view_;
-  PositionAccuracy accuracy_{0.8, 0.2, 0.02};
+  PositionAccuracy accuracy_{0.8, 0.2, 0.02, 0.02};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
   HeightPrior height_prior_{0.0, 2.0};
   SharedErrorEstimate errors_{accuracy_, height_prior_, NoiseEstimate(kSigmaAttitude_deg* kRadPerDeg),

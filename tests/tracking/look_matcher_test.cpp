@@ -58,7 +58,7 @@ class MatchedLooks : public ::testing::Test {
 
   JointTrackerConfig config_;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{20};
   LookMatcher matcher_{config_, 20};

@@ -39,7 +39,7 @@ class Misses : public ::testing::Test {
   JointTrackerConfig config_;
   DetectionRate detection_rate_{kFound};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{4};
   std::vector<Look> looks_;

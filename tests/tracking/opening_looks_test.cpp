@@ -197,7 +197,7 @@ class OpeningFrames : public ::testing::Test {
   JointTrackerConfig config_;
   LookMaker maker_{config_, 20};
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{10};
   OpeningLooks opening_looks_;

@@ -68,7 +68,7 @@ class Agreement : public ::testing::Test {
   }
 
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   NodeSpan span_;
 };

@@ -71,7 +71,7 @@ class RecentLooksAtAnObject : public ::testing::Test {
   static constexpr std::uint64_t kId = 1, kOther = 2;
   static constexpr double kEnd_s = 30.0;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{4};
   RecentLooks recent_{20};

@@ -79,7 +79,7 @@ class RestingObjectSums : public ::testing::Test {
   std::mt19937 random_{5};
   std::normal_distribution<double> normal_;
   ArrowheadSolver solver_{CalibrationPrior{}, DriftConfig{}};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, testing::kNoise,
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior, testing::kNoise,
                               DriftConfig{}, solver_};
   TrackTable tracks_{12};
 };

@@ -213,8 +213,8 @@ class SleepingObject : public ::testing::Test {
   std::vector<Object> objects_{kObjects};
   double latency_s_ = 0.0;
   ArrowheadSolver solver_{CalibrationPrior{}, config()};
-  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02}, testing::kHeightPrior, NoiseEstimate(0.01),
-                              config(), solver_};
+  SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior,
+                              NoiseEstimate(0.01), config(), solver_};
 };
 
 TEST_F(SleepingObject, AreAsGoodAsAwakeWhereNodesAreThinned) {

@@ -56,8 +56,8 @@ struct WatchedFlight {
   FrameViewer frame_viewer{state, mount, CameraOrientation::kComposed};
   Projector projector{ProjectorConfig{}, CameraIntrinsics{}};
   ArrowheadSolver solver{CalibrationPrior{}, DriftConfig{}};
-  SharedErrorEstimate errors{PositionAccuracy{0.5, 0.2, 0.1}, HeightPrior{0.0, 1.0}, NoiseEstimate(0.005),
-                             DriftConfig{}, solver};
+  SharedErrorEstimate errors{PositionAccuracy{0.5, 0.2, 0.1, 0.1}, HeightPrior{0.0, 1.0},
+                             NoiseEstimate(0.005), DriftConfig{}, solver};
 };
 
 /// To the north, level and at 5 m/s: there is no turning that would tell of a latency.

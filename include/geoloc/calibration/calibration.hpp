@@ -13,12 +13,13 @@ namespace geoloc {
 /// The errors that are constant over a flight, as one vector: the order of everything that is indexed by
 /// them.
 struct CalibrationIndex {
-  static constexpr int kBoresight = 0;  ///< x, y, z of the camera [rad], camera axes
-  static constexpr int kLatency = 3;    ///< [s]
-  static constexpr int kHeight = 4;     ///< [m]
-  static constexpr int kFocal = 5;      ///< natural logarithm of a ratio
-  static constexpr int kOffset = 6;     ///< east, north [m]
-  static constexpr int kSize = 8;
+  static constexpr int kBoresight = 0;    ///< x, y, z of the camera [rad], camera axes
+  static constexpr int kLatency = 3;      ///< [s]
+  static constexpr int kHeight = 4;       ///< [m]
+  static constexpr int kFocal = 5;        ///< natural logarithm of a ratio
+  static constexpr int kPositionLag = 6;  ///< [s]
+  static constexpr int kOffset = 7;       ///< east, north [m]
+  static constexpr int kSize = 9;
 };
 
 using CalibrationVector = Eigen::Matrix<double, CalibrationIndex::kSize, 1>;
@@ -29,6 +30,7 @@ using CalibrationMatrix = Eigen::Matrix<double, CalibrationIndex::kSize, Calibra
 ///   latency:   a frame shows the world this much before its stamp
 ///   height:    the camera is this much higher above the ground plane than reported
 ///   focal:     the focal length is the nominal one times e to the power of this
+///   position_lag: the reported position is that of the vehicle so much earlier, as seen against its attitude
 ///   offset:    the vehicle is this much east and north of where it reports to be
 struct Calibration {
   CalibrationVector mean = CalibrationVector::Zero();
@@ -40,6 +42,7 @@ struct Calibration {
   /// The focal length by the nominal one, and by how much it is longer [%].
   double focal_ratio() const { return std::exp(mean[CalibrationIndex::kFocal]); }
   double focal_percent() const { return 100.0 * std::expm1(mean[CalibrationIndex::kFocal]); }
+  double position_lag_s() const { return mean[CalibrationIndex::kPositionLag]; }
   Eigen::Vector2d offset_m() const { return mean.segment<2>(CalibrationIndex::kOffset); }
   /// Turns a camera's nominal pose by the boresight.
   void turn(Rigid3d& enu_from_camera) const;
@@ -56,12 +59,15 @@ struct CalibrationPrior {
   double latency_s = 0.0;
   double height_m = 0.0;
   double focal_percent = 0.0;
+  double position_lag_s = 0.0;
   double sigma_boresight_x_deg = 1.5;  ///< hand-mounted cameras are off by a degree or two
   double sigma_boresight_y_deg = 1.5;
   double sigma_boresight_z_deg = 3.0;  ///< and the compass is worse than the mount
   double sigma_latency_s = 0.3;
   double sigma_height_m = 2.0;  ///< scale of a distribution with heavy tails: the take-off may lie elsewhere
   double sigma_focal_percent = 0.0;
+  double sigma_position_lag_s =
+      0.05;  ///< what an autopilot's filter is told of its receiver's delay is a guess
 
   std::vector<std::string> problems() const;
 };

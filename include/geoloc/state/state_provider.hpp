@@ -12,6 +12,7 @@
 #include "geoloc/state/samples.hpp"
 #include "geoloc/state/state_buffer.hpp"
 #include "geoloc/state/step_watch.hpp"
+#include "geoloc/state/turn_rates.hpp"
 #include "geoloc/state/vehicle_state.hpp"
 #include "geoloc/state/with_steps.hpp"
 #include "geoloc/state/zoom_history.hpp"
@@ -138,7 +139,7 @@ class StateProvider {
  private:
   struct Brackets {
     Bracket<WithSteps<LocalPosition>> position;
-    Bracket<WithSteps<EulerAngles>> attitude;
+    Bracket<WithSteps<AttitudeSample>> attitude;
   };
 
   bool accept_stamp(VehicleTime stamp);
@@ -157,7 +158,8 @@ class StateProvider {
   std::optional<double> home_height_msl_m_;
   HomeDatum home_;
   StepWatch watch_;
-  StateBuffer<WithSteps<EulerAngles>> attitudes_;
+  StateBuffer<WithSteps<AttitudeSample>> attitudes_;
+  TurnRates turn_rates_;
   StateBuffer<WithSteps<LocalPosition>> positions_;
   GimbalHistory gimbal_;
   ZoomHistory zoom_;

@@ -32,8 +32,9 @@ struct JointTrackerConfig {
   double sigma_time_s = 0.01;           ///< of a frame's stamp
   double horizontal_accuracy_m = 0.85;  ///< radial, where the autopilot reports none
   double constant_share = 0.15;         ///< of the position's variance: constant over a flight
-  double least_offset_sigma_m = 0.04;
-  double fast_share = 0.25;  ///< of the position's accuracy: changes from second to second
+  double stated_offset_sigma_m = 0.04;  ///< at least, of an RTK fix that states next to nothing
+  double least_offset_sigma_m = 0.02;   ///< whatever the flight shows
+  double fast_share = 0.25;             ///< of the position's accuracy: changes from second to second
   double fast_time_constant_s = 1.0;
   double sigma_ground_m = 3.0;      ///< of an object's height above or below the ground
   double sigma_ground_share = 0.0;  ///< the same over level ground, as a share of the camera's height

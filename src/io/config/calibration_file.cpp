@@ -41,6 +41,8 @@ CalibrationPrior parse_calibration(const std::string& text, const std::string& n
     read_component(document, "boresight_y_deg", learnt.boresight_y_deg, learnt.sigma_boresight_y_deg);
     read_component(document, "boresight_z_deg", learnt.boresight_z_deg, learnt.sigma_boresight_z_deg);
     read_component(document, "latency_s", learnt.latency_s, learnt.sigma_latency_s);
+    if (document.contains("position_lag_s"))
+      read_component(document, "position_lag_s", learnt.position_lag_s, learnt.sigma_position_lag_s);
     if (document.contains("focal_percent"))
       read_component(document, "focal_percent", learnt.focal_percent, learnt.sigma_focal_percent);
     learnt.sigma_boresight_z_deg = std::hypot(learnt.sigma_boresight_z_deg, sigma_yaw_deg);

@@ -35,6 +35,7 @@ ordered_json calibration(const Calibration& calibration) {
     add_row(name, unit, calibration.mean[index] * scale, calibration.sigma(index) * scale, digits);
   };
   add("Image delay", "ms", Index::kLatency, 1e3, 1);
+  add("Delay of the vehicle's position", "ms", Index::kPositionLag, 1e3, 1);
   add("Camera turned about its x axis", "°", Index::kBoresight, kDegPerRad, 3);
   add("Camera turned about its y axis", "°", Index::kBoresight + 1, kDegPerRad, 3);
   add("Camera turned about its z axis", "°", Index::kBoresight + 2, kDegPerRad, 3);

@@ -71,6 +71,7 @@ ordered_json calibration_to_json(const std::optional<Calibration>& calibration) 
   add("boresight_y_deg", Index::kBoresight + 1, kDegPerRad, 4);
   add("boresight_z_deg", Index::kBoresight + 2, kDegPerRad, 4);
   add("latency_s", Index::kLatency, 1.0, 5);
+  add("position_lag_s", Index::kPositionLag, 1.0, 5);
   add("height_offset_m", Index::kHeight, 1.0, 4);
   add("offset_east_m", Index::kOffset, 1.0, 4);
   add("offset_north_m", Index::kOffset + 1, 1.0, 4);
