@@ -9,13 +9,12 @@ import csv
 import json
 import math
 import pathlib
-import re
-import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-BIN = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "build" / "release" / "bin"
+from recorded_flights import BUILT, mean_rmse_m, replay, simulate
+
+BIN = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else BUILT
 WORD = sys.argv[2] if len(sys.argv) > 2 else ""
 FLIGHTS = "stock_path1", "stock_path3", "stock_path5"
 SEEDS = 1, 2, 3
@@ -26,8 +25,8 @@ ROWS = [
     ("gimbal, looks down", ("--gimbal", "nadir"), ("rigid, looks down",)),
     ("rigid, 45° down in flight", ("--mount-pitch-deg", "-38"), ()),
     ("gimbal, 45° down", ("--gimbal", "45"), ("rigid, 45° down in flight",)),
-    ("rigid, 65° down in flight", ("--mount-pitch-deg", "-58"), ()),
-    ("gimbal, sweeps between 90° and 40° down", ("--gimbal", "sweep"), ("rigid, looks down", "rigid, 45° down in flight")),
+    ("a perfect mount, sweeps between 90° and 40° down", ("--gimbal", "sweep", "--gimbal-perfect"), ()),
+    ("gimbal, sweeps between 90° and 40° down", ("--gimbal", "sweep"), ("a perfect mount, sweeps between 90° and 40° down",)),
     ("gimbal, looks down, tells its set-point", ("--gimbal", "nadir", "--gimbal-setpoint-feedback"), ()),
     ("gimbal, 45° down, tells its set-point", ("--gimbal", "45", "--gimbal-setpoint-feedback"), ()),
 ] + [
@@ -56,15 +55,11 @@ def never_shown(truth, raw):
 
 
 def score(flight, seed, options):
-    """What geoloc_replay says of a recording that geoloc_sim makes, and how many targets its camera never showed."""
+    """The score of a recording that geoloc_sim makes, and how many targets its camera never showed."""
     with tempfile.TemporaryDirectory(prefix="geoloc-gimbal-") as folder:
-        recording = pathlib.Path(folder) / "recording"
-        subprocess.run([BIN / "geoloc_sim", "--record", recording, "--flight", flight, "--seed", str(seed), *options],
-                       check=True, capture_output=True)
-        raw = pathlib.Path(folder) / "raw.csv"
-        replay = [BIN / "geoloc_replay", recording, "--raw", raw, "--out", pathlib.Path(folder) / "objects.geojson"]
-        said = subprocess.run(replay, check=True, capture_output=True, text=True).stderr
-        return said, never_shown(recording / "truth.geojson", raw)
+        recording, raw = pathlib.Path(folder) / "recording", pathlib.Path(folder) / "raw.csv"
+        simulate(BIN, recording, "--flight", flight, "--seed", seed, *options)
+        return replay(BIN, recording, "--raw", raw), never_shown(recording / "truth.geojson", raw)
 
 
 def main():
@@ -72,16 +67,13 @@ def main():
     wanted = {name for row in ROWS if WORD in row[0] for name in (row[0], *row[2])}
     print("| camera | RMSE m | against | found | never shown | extra | noticed |\n|---|---|---|---|---|---|---|")
     for name, options, rigid in (row for row in ROWS if row[0] in wanted):
-        scores = [score(flight, seed, options) for flight in FLIGHTS for seed in SEEDS]
-        said = [text for text, _ in scores]
-        errors = [float(re.search(r"RMSE ([\d.]+)", text)[1]) for text in said]
-        found = [re.search(r"found (\d+) / (\d+)", text) for text in said]
-        extra = sum(int(re.search(r"extra (\d+)", text)[1]) for text in said)
-        noticed = sum(any(notice in text for notice in NOTICES) for text in said)
-        rmse_m[name] = sum(errors) / len(errors)
+        runs = [score(flight, seed, options) for flight in FLIGHTS for seed in SEEDS]
+        scores = [scored for scored, _ in runs]
+        noticed = sum(any(notice in scored.said for notice in NOTICES) for scored in scores)
+        rmse_m[name] = mean_rmse_m(scores)
         ratio = f"{rmse_m[name] * len(rigid) / sum(rmse_m[other] for other in rigid):.2f}" if rigid else ""
-        print(f"| {name} | {rmse_m[name]:.3f} | {ratio} | {sum(int(f[1]) for f in found)}/{sum(int(f[2]) for f in found)} "
-              f"| {sum(unseen for _, unseen in scores)} | {extra} | {noticed} of {len(said)} |", flush=True)
+        print(f"| {name} | {rmse_m[name]:.3f} | {ratio} | {sum(s.found for s in scores)}/{sum(s.targets for s in scores)} "
+              f"| {sum(unseen for _, unseen in runs)} | {sum(s.extra for s in scores)} | {noticed} of {len(scores)} |", flush=True)
 
 
 if __name__ == "__main__":

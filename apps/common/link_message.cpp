@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/count_list.hpp"
+#include "common/view_contradiction.hpp"
 #include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::apps {
@@ -55,7 +56,9 @@ std::string fault(const io::LinkStatus& link, const Geolocator& geolocator) {
 }
 
 /// What is known of a camera's zoom; empty of one that tells none, or always the same.
-std::string on_zoom(const io::LinkStatus& link) {
+std::string on_zoom(const io::LinkStatus& link, const Geolocator& geolocator) {
+  const std::string contradiction = view_contradiction(link, geolocator.config().camera.intrinsics);
+  if (!contradiction.empty()) return "; " + contradiction;
   if (link.zooms_untold)
     return "; the camera zooms (CAMERA_SETTINGS) and does not tell its field of view (CAMERA_FOV_STATUS): "
            "its focal length is taken to be the calibration's, which is wrong while it zooms";
@@ -69,10 +72,10 @@ std::string on_zoom(const io::LinkStatus& link) {
 std::string comes(const io::LinkStatus& link, const Geolocator& geolocator, TelemetryWay way) {
   const bool is_in_video = way == TelemetryWay::kVideo;
   const std::string telemetry = is_in_video ? "telemetry comes in the video" : "telemetry comes";
-  if (!is_on_gimbal(geolocator)) return telemetry + on_zoom(link);
+  if (!is_on_gimbal(geolocator)) return telemetry + on_zoom(link, geolocator);
   const std::string gimbal = is_in_video ? "its gimbal" : fmt::format("gimbal {}", link.gimbal->number());
   return fmt::format("{}, and the angles of {} ({:.0f}/s)", telemetry, gimbal, link.gimbal_rate_hz) +
-         on_zoom(link);
+         on_zoom(link, geolocator);
 }
 
 LinkMessage of_nobody(const io::LinkStatus& link, TelemetryWay way) {

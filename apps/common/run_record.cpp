@@ -8,6 +8,7 @@
 #include "common/gimbal_news.hpp"
 #include "common/run_score.hpp"
 #include "common/state_news.hpp"
+#include "common/view_contradiction.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_provider.hpp"
@@ -67,15 +68,23 @@ std::string doubts(const Score& score, const LeftOut& told) {
   return lines;
 }
 
+std::string remark_on_view(const Session& session) {
+  const auto& heard = session.census().telemetry;
+  if (!heard) return {};
+  return view_contradiction(session.link().status(heard->last),
+                            session.geolocator().config().camera.intrinsics);
+}
+
 /// What a person should know besides the figures.
 std::string remarks(const Session& session) {
+  const Geolocator& geolocator = session.geolocator();
   std::string lines;
-  for (const std::string& news :
-       {count_of_jumps(session.geolocator().state().counters()), count_of_turned(session.geolocator()),
-        remark_on_gimbal(session.geolocator()), clock_message(session), count_of_damaged(session)}) {
+  for (const std::string& news : {count_of_jumps(geolocator.state().counters()), count_of_turned(geolocator),
+                                  remark_on_gimbal(geolocator), remark_on_view(session),
+                                  clock_message(session), count_of_damaged(session)}) {
     if (!news.empty()) lines += "\n" + news;
   }
-  lines += unused_known_points(session.geolocator()) + useless_terrain(session.geolocator());
+  lines += unused_known_points(geolocator) + useless_terrain(geolocator);
   for (const std::string& sentence : diagnose(facts_of(session))) lines += "\n" + sentence;
   return lines;
 }

@@ -27,6 +27,11 @@ void add_gimbal_options(CLI::App& program, GimbalOptions& options, CLI::Option* 
   add("--gimbal-told-yaw", options.told_yaw, {"nose", "north"}, "What the yaw that it tells counts from");
   add("--gimbal-message", options.message, {"285", "265", "158"},
       "GIMBAL_DEVICE_ATTITUDE_STATUS, MOUNT_ORIENTATION or MOUNT_STATUS, which has yaws from the nose alone");
+  program
+      .add_flag("--gimbal-perfect", options.is_perfect,
+                "It measures its angles rightly, and shakes by a tenth only")
+      ->needs(gimbal)
+      ->group(kCameraGroup);
   const auto add_fault = [&](const char* name, bool& value, const char* help) {
     program.add_flag(name, value, help)->needs(gimbal)->group(kHiddenGroup);
   };
@@ -49,6 +54,7 @@ std::optional<GimbalSettings> to_settings(const GimbalOptions& options) {
                                                 : GimbalTelling::kMountStatus;
   settings.has_wrong_flag = options.has_wrong_flag;
   settings.tells_set_point = options.tells_set_point;
+  settings.is_perfect = options.is_perfect;
   const bool tells_no_frame = settings.telling == GimbalTelling::kMountStatus;
   if (tells_no_frame && (settings.told_yaw == GimbalYaw::kFromNorth || settings.has_wrong_flag))
     throw std::invalid_argument(

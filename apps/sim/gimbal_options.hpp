@@ -17,6 +17,7 @@ struct GimbalOptions {
   std::string message = "285";
   bool has_wrong_flag = false;
   bool tells_set_point = false;
+  bool is_perfect = false;
 };
 
 /// Adds --gimbal and what goes with it; `mount_pitch` excludes it.

@@ -4,6 +4,7 @@
 /// All that onboard software needs of libgeoloc (docs/library.md).
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/camera/field_of_view.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"

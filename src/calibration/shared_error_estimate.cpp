@@ -27,6 +27,11 @@ SharedError::CalibrationMatrix root_of(const Calibration& calibration) {
 
 }  // namespace
 
+void PositionAccuracy::report(double reported_radial_m) {
+  radial_m = std::clamp(reported_radial_m, kLeastReported_m, kMostReported_m);
+  is_reported = true;
+}
+
 double PositionAccuracy::wandering_sigma_m() const {
   return std::sqrt(0.5 * (1.0 - constant_share)) * changing_m();
 }
@@ -34,6 +39,11 @@ double PositionAccuracy::wandering_sigma_m() const {
 double PositionAccuracy::offset_sigma_m(double wandering_scale) const {
   const double sigma_m = std::max(stated_offset_sigma_m, std::sqrt(0.5 * constant_share) * radial_m);
   return std::max(least_offset_sigma_m, wandering_scale * sigma_m);
+}
+
+double PositionAccuracy::believed_scale(double observed) const {
+  const double least = is_reported ? kLeastScale : std::min(kLeastScale, kLeastReported_m / changing_m());
+  return std::clamp(observed, least, kMostScale);
 }
 
 SharedErrorEstimate::SharedErrorEstimate(const PositionAccuracy& reported, const HeightPrior& expected_height,

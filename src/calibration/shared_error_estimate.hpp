@@ -14,8 +14,8 @@
 
 namespace geoloc {
 
-/// How the horizontal accuracy that the vehicle reports (radial, 1-sigma) divides among the errors of its
-/// position.
+/// How the horizontal accuracy that the vehicle reports (radial, 1-sigma), or that is assumed of it, divides
+/// among the errors of its position.
 struct PositionAccuracy {
   double radial_m;
   double constant_share;  ///< share of the variance that stays constant over a flight; the rest wanders
@@ -23,6 +23,10 @@ struct PositionAccuracy {
   /// RTK fix states centimetres against its base, and nothing of where that stands), and whatever it shows.
   double stated_offset_sigma_m;
   double least_offset_sigma_m;
+  bool is_reported = false;  ///< the radial one, by the vehicle; else it is assumed
+
+  /// What the vehicle says of itself from now on.
+  void report(double reported_radial_m);
 
   /// The part of it that may change within minutes: whatever a receiver says of itself, an autopilot's
   /// position does not wander by tens of metres and stay usable.
@@ -35,8 +39,15 @@ struct PositionAccuracy {
   /// below 1) is taken to be as much better in what no look can show.
   double offset_sigma_m(double wandering_scale) const;
 
+  /// How strongly the position is taken to wander, of what was expected, where it was observed to do so by
+  /// `observed`. What a vehicle reports is believed to be wrong by some factor at most; what was assumed may
+  /// be as small as the least that any vehicle is believed to report.
+  double believed_scale(double observed) const;
+
  private:
   static constexpr double kMostChanging_m = 3.0;
+  static constexpr double kLeastReported_m = 0.02, kMostReported_m = 100.0;
+  static constexpr double kLeastScale = 0.1, kMostScale = 3.0;
 };
 
 /// What is known by now of the errors that looks share: the camera's and the vehicle's constant ones, and the

@@ -20,8 +20,6 @@ class ZoomScale {
   std::optional<Eigen::Vector2d> focal_px(const FieldOfViewSample& sample);
 
  private:
-  std::optional<double> told_zoom(const FieldOfViewSample& sample) const;
-
   CameraIntrinsics calibration_;
   std::optional<double> last_zoom_;
   std::optional<double> zoom_at_calibration_;  // as it is told

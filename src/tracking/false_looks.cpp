@@ -2,7 +2,7 @@
 #include "tracking/false_looks.hpp"
 
 #include <Eigen/LU>
-#include <optional>
+#include <utility>
 
 #include "tracking/gaussian.hpp"
 
@@ -46,22 +46,21 @@ bool is_false(const std::optional<DecisiveLook>& look, double odds, const Restin
 
 }  // namespace
 
-int drop_false_looks(RestingObject& object, const Look& newest, const FalseOdds& odds,
-                     const SharedErrorEstimate& errors) {
+std::optional<DecisiveLook> drop_false_looks(RestingObject& object, const Look& newest, const FalseOdds& odds,
+                                             const SharedErrorEstimate& errors) {
   const bool is_height_false = is_false(object.height_look, odds.of_later, object, errors);
   const bool is_first_false = !is_height_false && is_false(object.first_look, odds.of_first, object, errors);
-  if (!is_height_false && !is_first_false) return 0;
-  std::optional<DecisiveLook>& look = is_first_false ? object.first_look : object.height_look;
+  if (!is_height_false && !is_first_false) return std::nullopt;
+  const auto look = std::exchange(is_first_false ? object.first_look : object.height_look, std::nullopt);
   --object.track.hits;
   if (!can_be_taken_out(*look, errors.drift)) {
     begin_sums(object, newest, errors);
-    return 1;
+    return look;
   }
   take_out_look(object, look->observation, look->pixel_noise, errors.drift);
-  look.reset();
   if (is_first_false) object.sums_since += Duration{1};
   refresh(object, errors, newest.observation.span);
-  return 1;
+  return look;
 }
 
 }  // namespace geoloc

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "calibration/shared_error_estimate.hpp"
 #include "tracking/resting_object.hpp"
 
@@ -15,8 +17,8 @@ struct FalseOdds {
 /// Takes a look out of a young object's sums that a false box explains better than the object does, once its
 /// other looks tell where it is. (While the height of an object is open, looks metres away along its ray join
 /// it, and what one of them says of the height stays.) Where the sums hold the look as it was no more, they
-/// begin anew with the newest one. Returns how many were taken out.
-int drop_false_looks(RestingObject& object, const Look& newest, const FalseOdds& odds,
-                     const SharedErrorEstimate& errors);
+/// begin anew with the newest one. Returns the look that was taken out, if there is one.
+std::optional<DecisiveLook> drop_false_looks(RestingObject& object, const Look& newest, const FalseOdds& odds,
+                                             const SharedErrorEstimate& errors);
 
 }  // namespace geoloc

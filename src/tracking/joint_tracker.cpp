@@ -22,10 +22,6 @@ namespace {
 
 using Index = CalibrationIndex;
 
-/// Bounds of what the reported accuracy is believed to be wrong by.
-constexpr double kLeastWandering = 0.1, kMostWandering = 3.0;
-/// Bounds of what a vehicle's reported accuracy is believed to be [m].
-constexpr double kLeastAccuracy_m = 0.02, kMostAccuracy_m = 100.0;
 /// A known point that is nearer to the image's edge is not covered; share of the image's height.
 constexpr double kCoverMargin = 0.1;
 /// Sleeping objects that are brought up to date with each frame.
@@ -335,6 +331,10 @@ void JointTracker::go_on_with_latency(const LatencyPrior& latency, const Located
     ++book_.counters.removed;
   });
   recent_looks_.take_out(proven_at_ + Duration{1}, errors_.drift, tracks_);
+  opening_looks_.close();  // its frames have the latency of before
+  for (std::size_t row = tracks_.size(); row-- > 0;) {
+    if (!has_looks(tracks_[row]) && !tracks_[row].is_known) remove(row);  // its earlier ones were false
+  }
   if (const auto before =
           solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_, &sleeping_.settled()))
     errors_.take(*before);
@@ -360,8 +360,7 @@ void JointTracker::bound_height(const Projector& projector, const FrameView& vie
 
 JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   const VehicleState& vehicle = located.view.vehicle;
-  if (vehicle.sigma_horizontal_m)
-    errors_.accuracy.radial_m = std::clamp(*vehicle.sigma_horizontal_m, kLeastAccuracy_m, kMostAccuracy_m);
+  if (vehicle.sigma_horizontal_m) errors_.accuracy.report(*vehicle.sigma_horizontal_m);
   const double ground_height_m =
       located.projector.config().ground_height_above_home_m + located.view.lifted_m;
   if (errors_.drift.size() == 0) {
@@ -445,10 +444,11 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
     look.observation =
         look_maker_.linearised_at(track.position_in_enu, look, frame_looks.share_attitude, frame, errors_);
     add_to_sums(track, look, errors_);
-    // Those are not counted as clutter: a dozen of the first seconds would make every new object improbable.
-    drop_false_looks(track, look, false_odds, errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
     recent_looks_.add(track.track.id, frame.time(), look);
+    // Those are not counted as clutter: a dozen of the first seconds would make every new object improbable.
+    if (const auto false_look = drop_false_looks(track, look, false_odds, errors_))
+      recent_looks_.forget(track.track.id, false_look->observation);
     confirm_if_probable(track, config_.confirm_probability);
     if (track.is_confirmed()) confidence_.count_object(looks[i].detection.confidence);
   }
@@ -520,7 +520,8 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
                                                              const JointFrame& frame) {
   follow_ground(located.ground, tracks_);
   if (opening_looks_.is_open())
-    opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_);
+    opening_looks_.linearise_anew(located.viewer, frame.projector, look_maker_, errors_, tracks_,
+                                  recent_looks_);
   errors_.believe_in_sway(fast_position_variance_m2(config_, errors_), frame.repetition.lasts());
   const auto solution =
       solver_.solve(tracks_.landmarks(), errors_.prior(), errors_.drift, heights_, &sleeping_.settled());
@@ -535,7 +536,7 @@ std::optional<ArrowheadSolver::Solution> JointTracker::solve(const LocatedFrame&
 void JointTracker::learn_wandering(const Solution& solution) {
   if (!schedule_.teaches_wandering()) return;
   const auto wandering = solution.observed_wandering(errors_.drift);
-  if (wandering) errors_.drift.set_position_scale(std::clamp(*wandering, kLeastWandering, kMostWandering));
+  if (wandering) errors_.drift.set_position_scale(errors_.accuracy.believed_scale(*wandering));
 }
 
 void JointTracker::merge_compatible(const Solution& solution, const JointFrame& frame,

@@ -56,8 +56,9 @@ void OpeningLooks::rename(std::uint64_t gone, std::uint64_t kept) {
 
 void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& projector,
                                   const LookMaker& maker, const SharedErrorEstimate& errors,
-                                  TrackTable& tracks) {
+                                  TrackTable& tracks, RecentLooks& recent) {
   for (RestingObject& object : tracks) clear_sums(object);
+  recent.clear();
   for (Frame& frame : frames_) {
     if (frame.begin == frame.end) continue;
     if (const auto found = viewer.nominal_view(frame.stamp, errors.calibration.latency_s()))
@@ -66,14 +67,14 @@ void OpeningLooks::linearise_anew(const FrameViewer& viewer, const Projector& pr
     frame.nominal_view->terrain_m = frame.terrain_m;
     const double reported_m = reported_height_m(*frame.nominal_view, projector.config());
     const FrameView view = calibrated(*frame.nominal_view, errors.calibration, errors.lift_m(reported_m));
-    linearise_anew(frame, view, projector, maker, errors, tracks);
+    linearise_anew(frame, view, projector, maker, errors, tracks, recent);
   }
   for (RestingObject& object : tracks) keep_in_place_without_looks(object);
 }
 
 void OpeningLooks::linearise_anew(const Frame& frame, const FrameView& view, const Projector& projector,
                                   const LookMaker& maker, const SharedErrorEstimate& errors,
-                                  TrackTable& tracks) const {
+                                  TrackTable& tracks, RecentLooks& recent) const {
   const JointFrame as_before{projector,        view, frame.span, errors.drift.at(frame.span),
                              frame.repetition, 0.0,  0.0,        frame.run_time};
   for (std::size_t i = frame.begin; i < frame.end; ++i) {
@@ -84,6 +85,7 @@ void OpeningLooks::linearise_anew(const Frame& frame, const FrameView& view, con
     if (!fix) continue;
     const Look look = maker.make_look({sighting.detection, *fix}, frame.looks_that_share, as_before, errors);
     add_look(*object, look, errors.drift);
+    recent.add(sighting.track_id, frame.time, look);
   }
 }
 

@@ -11,6 +11,7 @@
 #include "geoloc/projection/ground_fix.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/look_maker.hpp"
+#include "tracking/recent_looks.hpp"
 #include "tracking/track_table.hpp"
 
 namespace geoloc {
@@ -40,9 +41,9 @@ class OpeningLooks {
 
   /// All sums of the objects at rest, from these looks and what is known from elsewhere. A frame from when
   /// the vehicle's state is known no more is seen from where it was last time; one that never was is left
-  /// out.
+  /// out. They are then all that `recent` holds, as they were added.
   void linearise_anew(const FrameViewer& viewer, const Projector& projector, const LookMaker& maker,
-                      const SharedErrorEstimate& errors, TrackTable& tracks);
+                      const SharedErrorEstimate& errors, TrackTable& tracks, RecentLooks& recent);
 
  private:
   struct Frame {
@@ -63,7 +64,8 @@ class OpeningLooks {
   };
 
   void linearise_anew(const Frame& frame, const FrameView& view, const Projector& projector,
-                      const LookMaker& maker, const SharedErrorEstimate& errors, TrackTable& tracks) const;
+                      const LookMaker& maker, const SharedErrorEstimate& errors, TrackTable& tracks,
+                      RecentLooks& recent) const;
 
   bool is_open_ = true;
   std::vector<Frame> frames_;

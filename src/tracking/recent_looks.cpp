@@ -21,6 +21,17 @@ void RecentLooks::add(std::uint64_t track_id, VehicleTime time, const Look& look
   size_ = std::min(size_ + 1, entries_.size());
 }
 
+void RecentLooks::forget(std::uint64_t track_id, const LandmarkObservation& observation) {
+  for (std::size_t i = 0; i < size_; ++i) {
+    Entry& entry = entries_[i];
+    if (entry.track_id != track_id || entry.observation.span.first != observation.span.first ||
+        entry.observation.value != observation.value)
+      continue;
+    entry.track_id = 0;
+    return;
+  }
+}
+
 void RecentLooks::rename(std::uint64_t gone, std::uint64_t kept) {
   for (std::size_t i = 0; i < size_; ++i) {
     Entry& entry = entries_[i];

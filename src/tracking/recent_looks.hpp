@@ -19,17 +19,20 @@ class RecentLooks {
 
   void add(std::uint64_t track_id, VehicleTime time, const Look& look);
 
+  /// The look is in the track's sums no more.
+  void forget(std::uint64_t track_id, const LandmarkObservation& observation);
+
   /// Track `gone` is now called `kept`.
   void rename(std::uint64_t gone, std::uint64_t kept);
 
   /// Takes the looks since then out of the sums of every object that earlier ones are in, too.
   void take_out(VehicleTime since, const DriftTimeline& drift, TrackTable& tracks);
 
-  void clear() { size_ = 0; }
+  void clear() { size_ = next_ = 0; }
 
  private:
   struct Entry {
-    std::uint64_t track_id;
+    std::uint64_t track_id;  // 0: forgotten
     VehicleTime time;
     LandmarkObservation observation;
     Eigen::Matrix2d pixel_noise;

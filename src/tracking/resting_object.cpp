@@ -58,7 +58,8 @@ void clear_sums(RestingObject& object) {
 }
 
 bool has_looks(const RestingObject& object) {
-  return (object.pixel_information - object.prior.matrix).trace() > 0.0;
+  constexpr double kRounding = 1e-6;  // what looks leave that were taken out; one tells a thousand [1/m^2]
+  return (object.pixel_information - object.prior.matrix).trace() > kRounding;
 }
 
 void add_look(RestingObject& object, const Look& look, const DriftTimeline& drift) {

@@ -6,6 +6,7 @@ import struct
 
 HEARTBEAT, GPS, ATTITUDE, POSITION, MOUNT, GIMBAL = 0, 24, 30, 33, 265, 285
 GPS_EPOCH_S, LEAP_SECONDS = 315964800, 18
+LATENCY_US = 120_000  # what geoloc_sim's stamps are late by
 
 
 def read_tlog(file):
@@ -178,6 +179,27 @@ def at(samples, time_us):
     return between
 
 
+def turned(axis, angle):
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return {"x": [[1, 0, 0], [0, cosine, -sine], [0, sine, cosine]], "y": [[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]],
+            "z": [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]]}[axis]
+
+
+def product(*matrices):
+    result = matrices[0]
+    for other in matrices[1:]:
+        result = [[sum(row[k] * other[k][j] for k in range(3)) for j in range(3)] for row in result]
+    return result
+
+
+def camera_below(flight, time_us):
+    """Roll, pitch, yaw in degrees of a camera that looks down from the vehicle, against north, east, down."""
+    roll, pitch, yaw = at(flight.attitudes, time_us)
+    turn = product(turned("z", yaw), turned("y", pitch), turned("x", roll), turned("y", -math.pi / 2))
+    return [math.degrees(angle) for angle in (math.atan2(turn[2][1], turn[2][2]), -math.asin(max(-1, min(1, turn[2][0]))),
+                                              math.atan2(turn[1][0], turn[0][0]))]
+
+
 def clock(duration_s):
     whole_ms = int(duration_s * 1000)
     return f"{whole_ms // 3600000:02}:{whole_ms // 60000 % 60:02}:{whole_ms // 1000 % 60:02},{whole_ms % 1000:03}"
@@ -212,4 +234,14 @@ def to_table(flight):
     for time, *cells in sorted(rows, key=lambda row: row[0]):
         utc = datetime.datetime.fromtimestamp((time + flight.utc_us) / 1e6, datetime.timezone.utc)
         lines.append(",".join([utc.strftime("%Y-%m-%dT%H:%M:%S.%fZ"), *map(str, cells)]))
+    return "\n".join(lines) + "\n"
+
+
+def labels_of(frames):
+    """The detections of a recording's frames, as labels of the video beside it."""
+    lines = ["picture,u,v,width,height,confidence"]
+    for number, frame in enumerate(frames):
+        boxes = [(*detection["box"], detection["confidence"]) for detection in frame["detections"]]
+        lines += [f"{number},{x + w / 2 - 0.5},{y + h / 2 - 0.5},{w},{h},{confidence}" for x, y, w, h, confidence in boxes]
+        lines += [] if boxes else [f"{number},,,,,"]
     return "\n".join(lines) + "\n"

@@ -10,10 +10,9 @@ import subprocess
 import tempfile
 import unittest
 
-from flight_logs import Flight, to_dataflash, to_srt, to_ulog
+from flight_logs import LATENCY_US, Flight, to_dataflash, to_srt, to_ulog
 from support import BIN, SOURCE, AppTest, run
 
-LATENCY_US = 120_000  # what geoloc_sim's stamps are late by
 PIECE = ("--seed", 3, "--frame-rate", 4, "--start-s", 75, "--end-s", 105)
 FOCAL_35MM_MM = 25.2  # of 70 degrees, as an equivalent that takes the picture for one between 3:2 and 4:3
 

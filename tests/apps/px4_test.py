@@ -179,6 +179,17 @@ class Px4Flight(Link):
             scores.append(self.score(recording, recording / "truth.geojson")[:2])
         self.assertEqual(*scores)
 
+    def test_a_home_that_is_set_anew_in_flight_is_noticed(self):
+        """By the two heights of GLOBAL_POSITION_INT, as ArduPilot's is."""
+        for link in "px4", "px4-ground":
+            recording = self.folder / f"{link}-home"
+            made = run("geoloc_sim", "--record", recording, "--autopilot", link, "--jump", "home")
+            self.assertEqual(made.status, 0, made.err)
+            found, error_m, said = self.score(recording, recording / "truth.geojson")
+            self.assertIn("the vehicle's home was set 3.0 m lower: heights stay above the first one", said)
+            self.assertEqual(found, 30, said)
+            self.assertLess(error_m, 0.1)
+
     def test_live_on_each_of_its_links(self):
         for link in "px4", "px4-ground":
             with self.subTest(link):

@@ -7,36 +7,15 @@ import struct
 import tempfile
 import unittest
 
-from flight_logs import GIMBAL, MOUNT, Flight, at, euler_angles, read_tlog, to_dataflash, to_srt, to_table, to_ulog
+from flight_logs import (GIMBAL, LATENCY_US, MOUNT, Flight, at, camera_below, euler_angles, labels_of, read_tlog, to_dataflash,
+                         to_srt, to_table, to_ulog)
 from support import AppTest, Live, rmse_m, run
 
-LATENCY_US = 120_000  # what geoloc_sim's stamps are late by
 SIM = ("--scenario", 1, "--seed", 3)
 
 
 def frames_of(recording):
     return [json.loads(line) for line in (recording / "frames.jsonl").read_text().splitlines()]
-
-
-def turned(axis, angle):
-    cosine, sine = math.cos(angle), math.sin(angle)
-    return {"x": [[1, 0, 0], [0, cosine, -sine], [0, sine, cosine]], "y": [[cosine, 0, sine], [0, 1, 0], [-sine, 0, cosine]],
-            "z": [[cosine, -sine, 0], [sine, cosine, 0], [0, 0, 1]]}[axis]
-
-
-def product(*matrices):
-    result = matrices[0]
-    for other in matrices[1:]:
-        result = [[sum(row[k] * other[k][j] for k in range(3)) for j in range(3)] for row in result]
-    return result
-
-
-def camera_below(flight, time_us):
-    """Roll, pitch, yaw in degrees of a camera that looks down from the vehicle, against north, east, down."""
-    roll, pitch, yaw = at(flight.attitudes, time_us)
-    turn = product(turned("z", yaw), turned("y", pitch), turned("x", roll), turned("y", -math.pi / 2))
-    return [math.degrees(angle) for angle in (math.atan2(turn[2][1], turn[2][2]), -math.asin(max(-1, min(1, turn[2][0]))),
-                                              math.atan2(turn[1][0], turn[0][0]))]
 
 
 class VideoTest(AppTest):
@@ -65,12 +44,7 @@ class VideoTest(AppTest):
         return file
 
     def labels(self):
-        lines = ["picture,u,v,width,height,confidence"]
-        for number, frame in enumerate(frames_of(self.sim)):
-            boxes = [(*detection["box"], detection["confidence"]) for detection in frame["detections"]]
-            lines += [f"{number},{x + w / 2 - 0.5},{y + h / 2 - 0.5},{w},{h},{confidence}" for x, y, w, h, confidence in boxes]
-            lines += [] if boxes else [f"{number},,,,,"]
-        return self.log("labels.csv", "\n".join(lines) + "\n")
+        return self.log("labels.csv", labels_of(frames_of(self.sim)))
 
     def import_video(self, log, *arguments, camera=None):
         return run("geoloc_import", "video", self.video, "--log", log, "--out", self.recording, "--camera",
@@ -115,11 +89,20 @@ class ImportedVideos(VideoTest):
         self.assertIn("by --log-offset-s",
                       self.assert_as_good(self.log("flight.csv", to_table(self.flight)), "--log-offset-s", offset_s))
 
+    def test_table_without_accuracies(self):
+        """The flight shows how good the receiver is."""
+        column = "sigma_horizontal_m"
+        rows = [line.split(",") for line in to_table(self.flight).splitlines()]
+        left_out = rows[0].index(column)
+        table = "\n".join(",".join(row[:left_out] + row[left_out + 1:]) for row in rows) + "\n"
+        offset_s = (self.stamps_us[0] - self.flight.begin_us()) / 1e6
+        self.assert_as_good(self.log("flight.csv", table), "--log-offset-s", offset_s, ratio=1.2)
+
     def test_subtitles_with_angles(self):
-        """Coordinates end at 1e-6 and angles at 0.1 degrees, and no accuracy is told."""
+        """Coordinates end at 1e-6 degrees, 0.11 m, and two subtitles a second leave more of that than the 30 of a DJI."""
         exposed_us = [stamp_us - LATENCY_US for stamp_us in self.stamps_us]
         log = self.log("flight.SRT", to_srt(self.flight, exposed_us, lambda time: camera_below(self.flight, time)))
-        said = self.assert_as_good(log, ratio=2.0)
+        said = self.assert_as_good(log, ratio=1.3)
         self.assertIn("by the subtitles, frame by frame", said)
         self.assertIn("does not tell its time zone: UTC is assumed", said)
 

@@ -54,6 +54,31 @@ class ZoomFlights(AppTest):
             self.assertIn(words, result.err)
             self.replay(recording, "--keep-going")
 
+    def configured_as(self, recording, factor):
+        """What the replay says where camera.json has a focal length that is so much longer than the camera's."""
+        camera = json.loads((recording / "camera.json").read_text())
+        wrong = self.folder / f"{factor}.json"
+        wrong.write_text(json.dumps({"camera": {**camera, "fx": factor * camera["fx"], "fy": factor * camera["fy"]}}))
+        return self.replay(recording, "--config", wrong)
+
+    def test_a_camera_that_contradicts_the_configuration_is_named(self):
+        """The camera begins at 70 degrees and zooms in."""
+        recording = self.fly("contradicted", "--end-s", "110")
+        told = "the camera tells a horizontal field of view of 7"  # nominal, to a percent
+        self.assertNotIn("the camera tells", self.configured_as(recording, 1.0))
+        said = self.configured_as(recording, 1.3)
+        self.assertIn(told, said)
+        self.assertIn("by its configuration it is 56.6 deg: the configuration is of another camera or mode", said)
+        self.assertIn("calibrate it at its widest", said)
+        self.assertNotIn("the camera tells", self.configured_as(recording, 0.7))  # it may have begun zoomed in
+
+    def test_a_camera_that_never_sees_what_the_configuration_says_is_named(self):
+        recording = self.folder / "still"
+        self.assertEqual(run("geoloc_sim", "--record", recording, "--zoom", "1..1.001", "--end-s", "90").status, 0)
+        said = self.configured_as(recording, 0.7)
+        self.assertIn("by its configuration it is 90.0 deg: it has been zoomed in from the beginning, or the configuration", said)
+        self.assertIn("horizontal_fov_deg", said)
+
     def test_zooms_that_no_camera_has_are_refused(self):
         for zoom in "4", "4..1", "0..4", "one..4", "1..4x", "1..nan":
             result = run("geoloc_sim", "--record", self.folder / "refused", "--zoom", zoom)

@@ -36,6 +36,27 @@ TEST(PositionAccuracy, OfAFixThatStatesNextToNothingIsNotBelievedUntilTheFlightS
   EXPECT_EQ(rtk.offset_sigma_m(0.1), 0.02);
 }
 
+TEST(PositionAccuracy, ThatIsReportedIsBelievedToBeWrongByAFactorAtMost) {
+  PositionAccuracy accuracy{2.0, 0.25, 0.1, 0.1};
+  accuracy.report(0.5);
+  EXPECT_EQ(accuracy.radial_m, 0.5);
+  EXPECT_EQ(accuracy.believed_scale(0.5), 0.5);
+  EXPECT_EQ(accuracy.believed_scale(0.01), 0.1);
+  EXPECT_EQ(accuracy.believed_scale(7.0), 3.0);
+}
+
+/// Whatever was assumed, the flight may show that the vehicle is as good as the best that report themselves.
+TEST(PositionAccuracy, ThatIsAssumedDoesNotKeepAFlightFromShowingABetterOne) {
+  PositionAccuracy best{1.0, 0.25, 0.1, 0.1};
+  best.report(1e-6);
+  for (const double assumed_m : {0.3, 0.85, 2.0}) {
+    const PositionAccuracy accuracy{assumed_m, 0.25, 0.1, 0.1};
+    EXPECT_NEAR(accuracy.believed_scale(1e-6) * accuracy.wandering_sigma_m(), best.wandering_sigma_m(), 1e-9);
+    EXPECT_EQ(accuracy.believed_scale(0.5), 0.5);
+    EXPECT_EQ(accuracy.believed_scale(7.0), 3.0);
+  }
+}
+
 class SharedErrors : public ::testing::Test {
  protected:
   /// Takes over the solution of some random looks at two objects.

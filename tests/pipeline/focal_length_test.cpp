@@ -10,6 +10,7 @@
 #include "geoloc/pipeline/geolocator.hpp"
 #include "support/map_laws.hpp"
 #include "support/nadir_flight.hpp"
+#include "support/wandering.hpp"
 
 namespace geoloc {
 namespace {
@@ -80,7 +81,8 @@ std::vector<Eigen::Vector3d> field(double hills_m) {
 struct Aids {
   double hills_m = 0.5;
   bool has_rangefinder = false;
-  std::vector<std::size_t> known_points = {};  ///< of the field's places
+  double accuracy_m = JointTrackerConfig{}.horizontal_accuracy_m;  ///< of the receiver, as it is told
+  std::vector<std::size_t> known_points = {};                      ///< of the field's places
 };
 
 /// Their places and heights are surveyed.
@@ -104,12 +106,44 @@ struct Flown {
   int found = 0;
 };
 
-Flown fly(const GeolocatorConfig& config, const Path& path, unsigned seed, const Aids& aids) {
-  constexpr double kFlight_s = 90.0;
+constexpr double kFlight_s = 90.0;
+
+/// The vehicle is not where it reports to be, as the prior expects it: it is off in position, height and yaw.
+Path off_as_expected(const Path& reported, const JointTrackerConfig& joint, unsigned seed) {
+  constexpr double kStep_s = 0.1;
+  const auto steady = [](double time_constant_s) {
+    DriftConfig process;
+    process.ripple_share = 0.0;
+    process.position_time_constant_s = time_constant_s;
+    return process;
+  };
+  const DriftConfig& drift = joint.drift;
+  const double sigma_m = std::sqrt(0.5 * (1.0 - joint.constant_share)) * joint.horizontal_accuracy_m;
+  testing::WanderingPosition position(drift, sigma_m, kStep_s);
+  testing::WanderingPosition height(steady(drift.up_time_constant_s), drift.sigma_up_m, kStep_s);
+  testing::WanderingPosition yaw(steady(drift.yaw_time_constant_s), drift.sigma_yaw_deg * kRadPerDeg,
+                                 kStep_s);
+  std::mt19937 random(seed);
+  std::vector<Eigen::Vector4d> errors;
+  for (double time_s = 0.0; time_s < kFlight_s + 2.0; time_s += kStep_s) {
+    const Eigen::Vector2d en = position.next(random);
+    errors.emplace_back(en.x(), en.y(), height.next(random).x(), yaw.next(random).x());
+  }
+  return [=](double time_s) {
+    const Eigen::Vector4d& error = errors[static_cast<std::size_t>(std::lround(time_s / kStep_s))];
+    Pose pose = reported(time_s);
+    pose.position += error.head<3>();
+    pose.yaw += error[3];
+    return pose;
+  };
+}
+
+Flown fly(const GeolocatorConfig& config, const Path& path, unsigned seed, const Aids& aids,
+          const Path& truth) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise_px(0.0, config.joint.sigma_px), noise_m(0.0, 0.1);
   const std::vector<Eigen::Vector3d> places = field(aids.hills_m);
-  NadirFlight flight(told(config, aids.known_points, places), path);
+  NadirFlight flight(told(config, aids.known_points, places), path, truth);
   for (double time_s = 0.5; time_s < kFlight_s; time_s += 0.2) {
     if (aids.has_rangefinder) {
       const Pose pose = path(time_s);
@@ -131,6 +165,10 @@ Flown fly(const GeolocatorConfig& config, const Path& path, unsigned seed, const
   flown.rmse_m = std::sqrt(flown.rmse_m / flown.found);
   flown.nees /= flown.found;
   return flown;
+}
+
+Flown fly(const GeolocatorConfig& config, const Path& path, unsigned seed, const Aids& aids) {
+  return fly(config, path, seed, aids, path);
 }
 
 /// That of a camera whose focal length is known.
@@ -173,6 +211,51 @@ TEST(FocalLength, IsFoundByACameraThatLooksAheadAtSurveyedPoints) {
   Aids aids;
   aids.known_points = {4, 6, 11, 16};
   expect_found(ahead(), 0.9, aids);
+}
+
+/// What is stated besides for what tilts tell wrongly.
+constexpr double kOfTilts_percent = 0.6;
+
+/// Over flights with focal lengths and a vehicle's errors as the prior expects them, the mean squared error
+/// of the estimate in units of its stated variance is one where that is right. Of the variance, that of
+/// `without_percent` is left out.
+void expect_right_sigma(const Path& path, double without_percent, const Aids& aids = {}) {
+  constexpr unsigned kFlights = 16;
+  std::mt19937 random(5);
+  std::normal_distribution<double> drawn_percent(0.0, kSigmaTold_percent);
+  double sum = 0.0;
+  for (unsigned seed = 1; seed <= kFlights; ++seed) {
+    const double percent = drawn_percent(random);
+    GeolocatorConfig config = config_for(percent, kSigmaTold_percent);
+    config.joint.horizontal_accuracy_m = aids.accuracy_m;
+    const Calibration found =
+        fly(config, path, seed, aids, off_as_expected(path, config.joint, seed + kFlights)).calibration;
+    const double variance = std::pow(found.sigma_focal_percent(), 2) - std::pow(without_percent, 2);
+    sum += std::pow(found.focal_percent() - percent, 2) / variance;
+  }
+  EXPECT_GT(sum / kFlights, 0.5);
+  EXPECT_LT(sum / kFlights, 3.0);
+}
+
+TEST(FocalLength, IsAsUncertainAsIsStatedWhereTheHeightChanges) {
+  expect_right_sigma(rising_and_sinking(), kOfTilts_percent);
+}
+
+/// Of a receiver that is good to 0.3 m: what ripples within seconds is taken for tilts, more than is stated.
+TEST(FocalLength, IsAsUncertainAsIsStatedWhereTheVehicleLeans) {
+  Aids aids;
+  aids.accuracy_m = 0.3;
+  expect_right_sigma(leaning(), 0.0, aids);
+}
+
+TEST(FocalLength, IsAsUncertainAsIsStatedAheadOverSurveyedPoints) {
+  Aids aids;
+  aids.known_points = {4, 6, 11, 16};
+  expect_right_sigma(ahead(), kOfTilts_percent, aids);
+}
+
+TEST(FocalLength, IsAsUncertainAsIsStatedWhereNothingShowsIt) {
+  expect_right_sigma(straight_down(), kOfTilts_percent);
 }
 
 /// From one height, level and straight down, it is as good as a height: the map does not mind, and no sigma

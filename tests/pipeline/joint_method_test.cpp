@@ -540,7 +540,7 @@ TEST(JointCalibration, ManyFramesASecondAreNotAsManyWitnessesEither) {
 
 /// The vehicle is not where it reports to be, by a process of known strength; back and forth over objects.
 double learnt_strength(double strength, unsigned seed, double duration_s = 180.0,
-                       const DriftConfig& process = {}) {
+                       const DriftConfig& process = {}, bool tells_accuracy = true) {
   const JointTrackerConfig joint;
   const double prior_m = std::sqrt(0.5 * (1.0 - joint.constant_share)) * joint.horizontal_accuracy_m;
   const double sigma_m = strength * prior_m, step_s = 0.1;
@@ -560,6 +560,7 @@ double learnt_strength(double strength, unsigned seed, double duration_s = 180.0
   GeolocatorConfig config;
   config.joint.least_offset_sigma_m = 0.0;
   NadirFlight flight(config, reported, truth);
+  if (tells_accuracy) flight.set_accuracy(joint.horizontal_accuracy_m);
   for (int i = 5; step_s * i < duration_s; i += 4) flight.see(step_s * i, grid(0.0, 30.0, 10.0));
   const double constant_m = std::sqrt(0.5 * joint.constant_share) * joint.horizontal_accuracy_m;
   return flight.geolocator().calibration()->sigma(CalibrationIndex::kOffset) / constant_m;
@@ -584,13 +585,18 @@ TEST(JointCalibration, LearnsTheWanderingInTheFirstMinute) {
   EXPECT_LT(learnt_strength(0.0, 3, 60.0), 0.6);
 }
 
-/// The offset's sigma follows the wandering between a tenth and three times what was expected.
+/// The offset's sigma follows the wandering between a tenth and three times what the receiver claims.
 TEST(JointCalibration, BelievesTheWanderingWithinBounds) {
   EXPECT_NEAR(learnt_strength(0.0, 3), 0.1, 1e-6);
   DriftConfig without_ripple;  // six times as strong, it would displace looks by more than the gate
   without_ripple.ripple_share = 0.0;
   without_ripple.position_time_constant_s = 30.0;
   EXPECT_NEAR(learnt_strength(6.0, 3, 180.0, without_ripple), 3.0, 1e-6);
+}
+
+/// A receiver that claims nothing is as good as the flight shows.
+TEST(JointCalibration, BelievesAReceiverThatClaimsNothingToBeAsGoodAsTheFlightShows) {
+  EXPECT_LT(learnt_strength(0.0, 3, 180.0, {}, false), 0.05);
 }
 
 /// Half of the constant share of the receiver's variance per axis, as it claims it to be now.

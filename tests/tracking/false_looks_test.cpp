@@ -38,7 +38,7 @@ class FalseLooks : public ::testing::Test {
   int absorb(RestingObject& object, const Look& look) {
     ++object.track.hits;
     add_to_sums(object, look, errors_);
-    return drop_false_looks(object, look, kOdds, errors_);
+    return drop_false_looks(object, look, kOdds, errors_) ? 1 : 0;
   }
 
   /// Looks from one side to the other.

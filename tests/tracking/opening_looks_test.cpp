@@ -169,7 +169,7 @@ class OpeningFrames : public ::testing::Test {
 
   void linearise_anew() {
     const FrameViewer viewer{state_, mount_, CameraOrientation::kComposed};
-    opening_looks_.linearise_anew(viewer, projector_, maker_, errors_, tracks_);
+    opening_looks_.linearise_anew(viewer, projector_, maker_, errors_, tracks_, recent_);
   }
 
   static void expect_same(const Landmark& sums, const Landmark& expected) {
@@ -201,6 +201,7 @@ class OpeningFrames : public ::testing::Test {
                               DriftConfig{}, solver_};
   TrackTable tracks_{10};
   OpeningLooks opening_looks_;
+  RecentLooks recent_{20};
   std::vector<Sighting> seen_;
   int looks_made_ = 0;  // by the last landmark_of_those()
 };
@@ -220,6 +221,20 @@ TEST_F(OpeningFrames, AreLinearisedAnewAsIfLocatedWithWhatIsKnownNow) {
       expect_same(*tracks_.find(id)->landmark, landmark_of(id));
       EXPECT_EQ(looks_made_, 18);
     }
+  }
+}
+
+/// Where a clock has stepped, they must be what the sums hold, and not what they were when they were new.
+TEST_F(OpeningFrames, CanBeTakenOutAsTheyAreNow) {
+  for (const std::uint64_t id : {1U, 2U, 3U}) append(id);
+  for (double time_s = 0.0; time_s < 12.0; time_s += 0.7) see(time_s, {1, 2, 3});
+  set_calibration({-0.03, 0.01, -0.08}, 0.37, 6.5);
+  linearise_anew();
+  recent_.take_out(VehicleTime{} + Duration{1}, errors_.drift, tracks_);
+  for (const std::uint64_t id : {1U, 2U, 3U}) {
+    const RestingObject& object = *tracks_.find(id);
+    EXPECT_LT((object.landmark->A() - object.prior.matrix).norm(), 1e-9 * landmark_of(id).A().norm());
+    EXPECT_LT((object.landmark->b() - object.prior.vector).norm(), 1e-9 * landmark_of(id).b().norm());
   }
 }
 

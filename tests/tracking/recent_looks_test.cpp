@@ -145,6 +145,40 @@ TEST_F(RecentLooksAtAnObject, FollowATrackThatIsRenamed) {
   expect_same(object, expected);
 }
 
+TEST_F(RecentLooksAtAnObject, LeaveNoneWhereAllAreTakenOut) {
+  RestingObject& object = append(kId, [](const TimedLook&) { return true; });
+  object.sums_since = at_s(-1.0);
+  EXPECT_TRUE(has_looks(object));
+  recent_.take_out(at_s(0.0), errors_.drift, tracks_);
+  EXPECT_FALSE(has_looks(object));
+}
+
+/// One that was taken out as false is not taken out again.
+TEST_F(RecentLooksAtAnObject, AreForgottenOneByOne) {
+  const VehicleTime since = at_s(20.0);
+  const TimedLook& gone = looks_[51];
+  ASSERT_GT(gone.time, since);
+  RestingObject& object = append(kId, [&](const TimedLook& timed) { return timed.time != gone.time; });
+  const RestingObject& expected = append(kOther, [&](const TimedLook& timed) { return timed.time < since; });
+  object.sums_since = at_s(0.0);
+  recent_.forget(kOther, gone.look.observation);
+  recent_.forget(kId, gone.look.observation);
+  recent_.take_out(since, errors_.drift, tracks_);
+  expect_same(object, expected);
+}
+
+/// Wherever the ring stood: of two steps of a clock, the second one takes out what came since the first.
+TEST_F(RecentLooksAtAnObject, OfBeforeTheyWereForgottenStayForgotten) {
+  recent_.clear();
+  for (double time_s = kEnd_s; time_s < kEnd_s + 5.0; time_s += 0.5) see(time_s);
+  RestingObject& object = append(kId, [](const TimedLook&) { return true; });
+  const RestingObject& expected =
+      append(kOther, [](const TimedLook& timed) { return timed.time < at_s(kEnd_s); });
+  object.sums_since = at_s(0.0);
+  recent_.take_out(at_s(1.0), errors_.drift, tracks_);
+  expect_same(object, expected);
+}
+
 TEST_F(RecentLooksAtAnObject, AreForgottenWhenTheyAreTold) {
   RestingObject& object = append(kId, [](const TimedLook&) { return true; });
   const RestingObject& expected = append(kOther, [](const TimedLook&) { return true; });

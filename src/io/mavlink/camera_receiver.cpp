@@ -12,6 +12,11 @@ constexpr std::uint32_t kCameraFovStatus = 271;
 /// Smaller changes are noise.
 constexpr double kLeastChange = 0.01, kLeastChange_percent = 1.0;
 
+/// One of them is told in every sample.
+double told_angle_rad(const FieldOfViewSample& sample) {
+  return sample.horizontal_rad ? *sample.horizontal_rad : *sample.vertical_rad;
+}
+
 bool is_camera_component(std::uint8_t component) {
   return component >= kFirstCameraComponent && component <= kLastCameraComponent;
 }
@@ -34,7 +39,9 @@ std::optional<FieldOfViewSample> CameraReceiver::take(std::uint8_t component,
     ++counts.suspect_stamps;
     return std::nullopt;
   }
+  if (camera_ != number) widest_view_.reset();
   camera_ = number;
+  note_view(message.sample);
   if (!has_changed(message.sample) && component == kAutopilotComponent) return std::nullopt;
   ++counts.fields_of_view;
   last_ = received_at;
@@ -49,8 +56,12 @@ bool CameraReceiver::is_it(std::uint8_t number) const {
   return !camera_ || *camera_ == number || (!is_camera_component(*camera_) && is_camera_component(number));
 }
 
+void CameraReceiver::note_view(const FieldOfViewSample& sample) {
+  if (!widest_view_ || told_angle_rad(sample) > told_angle_rad(*widest_view_)) widest_view_ = sample;
+}
+
 bool CameraReceiver::has_changed(const FieldOfViewSample& sample) {
-  const double angle_rad = sample.horizontal_rad ? *sample.horizontal_rad : *sample.vertical_rad;
+  const double angle_rad = told_angle_rad(sample);
   if (!first_angle_rad_) first_angle_rad_ = angle_rad;
   has_changed_ = has_changed_ || std::abs(angle_rad - *first_angle_rad_) > kLeastChange * *first_angle_rad_;
   return has_changed_;
@@ -84,6 +95,7 @@ void CameraReceiver::restart() {
   requests_.want({}, HostTime{});
   first_angle_rad_.reset();
   has_changed_ = false;
+  widest_view_.reset();
   last_.reset();
   first_level_percent_.reset();
   has_level_changed_ = false;
@@ -93,6 +105,7 @@ void CameraReceiver::report(HostTime now, LinkStatus& status) const {
   if (last_) status.since_field_of_view = now - *last_;
   status.field_of_view_rate_hz = meter_.rate_hz(now);
   status.has_zoom_changed = has_changed_;
+  status.widest_view = widest_view_;
   status.zooms_untold = has_level_changed_ && !last_;
 }
 

@@ -14,12 +14,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The clock is needed soon after start and reboot; after that it only drifts.
-constexpr Duration kFastTimesyncPeriod = 100ms;
-constexpr Duration kTimesyncPeriod = 1s;
-constexpr int kFastTimesyncs = 20;
-constexpr Duration kTextPeriod = 500ms;
-constexpr std::size_t kMostTexts = 20;  // waiting; older ones would be out of date
 /// For this long after an ATTITUDE, ATTITUDE_QUATERNION adds nothing new.
 constexpr Duration kEulerSilence = 1s;
 /// For this long after a DISTANCE_SENSOR, RANGEFINDER adds nothing new.
@@ -48,10 +42,6 @@ std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ar
 std::optional<Duration> since(const std::optional<HostTime>& time, HostTime now) {
   if (!time) return std::nullopt;
   return now - *time;
-}
-
-void send_frame(const OutgoingFrame& frame, const VehicleLink::Send& send) {
-  send(frame.bytes.data(), frame.size);
 }
 
 }  // namespace
@@ -129,7 +119,7 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   gimbal_.restart();
   camera_.restart();
   last_heard_ = arrival.at;
-  fast_timesyncs_ = 0;
+  sender_.seek_clock();
   requests_.want(wanted_streams(config_, choice_.is_ardupilot(), has_gimbal_), arrival.at);
   if (has_delivered_) arrival.sink.on_other_vehicle();
   has_delivered_ = false;
@@ -175,7 +165,7 @@ bool VehicleLink::accept_stamp(VehicleTime stamp, const Arrival& arrival) {
 
 void VehicleLink::tell_of_clock_step(std::uint64_t steps_before, const Arrival& arrival) {
   if (clock_.counts().steps == steps_before) return;
-  fast_timesyncs_ = 0;
+  sender_.seek_clock();
   arrival.sink.on_clock_step(clock_.last_step());
 }
 
@@ -255,59 +245,16 @@ void VehicleLink::handle(const CommandAck& message, const Arrival& arrival) {
 void VehicleLink::poll(HostTime now, const Send& send) {
   if (!choice_.vehicle()) return;
   // Until it hears version 2, a PX4 may speak version 1, which has no accuracies and no messages of gimbals.
-  writer_.use_v2(is_v2_ || choice_.is_px4());
-  if (is_due(last_heartbeat_, kHeartbeatPeriod, now)) {
-    last_heartbeat_ = now;
-    send_frame(writer_.heartbeat(self()), send);
-  }
+  const LinkSender::Peers peers{self(), *choice_.vehicle(), is_v2_ || choice_.is_px4()};
+  sender_.send_heartbeat(now, peers, send);
   if (!is_alive(now)) return;
-  send_timesync(now, send);
-  send_requests(now, send);
-  send_text(now, send);
-}
-
-void VehicleLink::say(const std::string& text) {
-  if (texts_.size() < kMostTexts) texts_.push_back(text);
-}
-
-void VehicleLink::send_text(HostTime now, const Send& send) {
-  if (texts_.empty() || !is_due(last_text_, kTextPeriod, now)) return;
-  last_text_ = now;
-  send_frame(writer_.status_text(self(), texts_.front()), send);
-  texts_.pop_front();
-}
-
-void VehicleLink::send_timesync(HostTime now, const Send& send) {
-  const bool is_fast = fast_timesyncs_ < kFastTimesyncs || clock_.doubt() > Duration::zero();
-  if (!is_due(last_timesync_, is_fast ? kFastTimesyncPeriod : kTimesyncPeriod, now)) return;
-  last_timesync_ = now;
-  if (fast_timesyncs_ < kFastTimesyncs) ++fast_timesyncs_;
-  const auto now_us = std::chrono::duration_cast<std::chrono::microseconds>(now.time_since_epoch());
-  const std::int64_t marked_ns = now_us.count() * kNanosecondsPerStamp + config_.component_id;
-  send_frame(writer_.timesync_request(self(), marked_ns), send);
-}
-
-void VehicleLink::send_requests(HostTime now, const Send& send) {
-  while (const auto request = requests_.next(now)) {
-    const WantedStream& stream = request->stream;
-    send_frame(
-        request->method == StreamRequest::Method::kDataStream
-            ? writer_.request_data_stream(self(), *choice_.vehicle(), stream.data_stream, stream.rate_hz)
-            : writer_.set_message_interval(self(), *choice_.vehicle(), stream.message_id, stream.rate_hz),
-        send);
-  }
-  while (const auto request = camera_.next_request(now)) {
-    const MavAddress camera{choice_.vehicle()->system, camera_.asked_component()};
-    send_frame(
-        writer_.set_message_interval(self(), camera, request->stream.message_id, request->stream.rate_hz),
-        send);
-  }
+  sender_.send_due(now, peers, clock_.doubt() > Duration::zero(), requests_, camera_, send);
 }
 
 void VehicleLink::ask_anew(HostTime now) {
   requests_.restart(now);
   camera_.ask_anew(now);
-  fast_timesyncs_ = 0;
+  sender_.seek_clock();
 }
 
 MavAddress VehicleLink::self() const {

@@ -14,6 +14,8 @@ constexpr double kLag_s = 0.15, kFollowLag_s = 0.4;
 constexpr double kMostYawFromNose_rad = 160.0 * kRadPerDeg;
 constexpr double kLeastPitch_rad = -90.0 * kRadPerDeg, kMostPitch_rad = 20.0 * kRadPerDeg;
 constexpr double kShake_rad = 0.1 * kRadPerDeg, kShakeTime_s = 0.5;
+/// Without any, its angles would look like commands.
+constexpr double kLeastShake_rad = 0.01 * kRadPerDeg;
 /// As the autopilot's roll and pitch are off by on the straight legs of data/flights, and as long.
 constexpr double kSensorDrift_rad = 0.04 * kRadPerDeg, kSensorDriftTime_s = 3.0;
 constexpr double kSensorNoise_rad = 0.03 * kRadPerDeg;
@@ -53,12 +55,14 @@ SimulatedGimbal::SimulatedGimbal(const GimbalSettings& settings, std::uint64_t s
 GimbalMoment SimulatedGimbal::step(double time_s, double step_s, const EulerAngles& vehicle) {
   const EulerAngles wanted = set_point(time_s, vehicle.yaw_rad);
   follow(wanted, step_s, vehicle.yaw_rad);
-  shake_rad_ = wandered(shake_rad_, kShake_rad, kShakeTime_s, step_s, random_);
+  const double shake_sigma_rad = settings_.is_perfect ? kLeastShake_rad : kShake_rad;
+  shake_rad_ = wandered(shake_rad_, shake_sigma_rad, kShakeTime_s, step_s, random_);
   sensor_drift_rad_ = wandered(sensor_drift_rad_, kSensorDrift_rad, kSensorDriftTime_s, step_s, random_);
   GimbalMoment moment;
   moment.ned_from_gimbal = turned(ned_from_body(*angles_), shake_rad_);
+  const Eigen::Vector3d sensor_error_rad = sensor_drift_rad_ + kSensorNoise_rad * normals(random_);
   moment.ned_from_measured =
-      turned(moment.ned_from_gimbal, sensor_drift_rad_ + kSensorNoise_rad * normals(random_));
+      settings_.is_perfect ? moment.ned_from_gimbal : turned(moment.ned_from_gimbal, sensor_error_rad);
   moment.ned_from_set_point = ned_from_body(wanted);
   return moment;
 }

@@ -3,73 +3,34 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <set>
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/mavlink/vehicle_link.hpp"
-#include "io/mavlink/collecting_sink.hpp"
+#include "io/mavlink/component_link.hpp"
 #include "io/mavlink/test_frames.hpp"
 
 namespace geoloc::io {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::Bytes;
 using testing::FrameFactory;
 
-constexpr HostTime kCameraLinkStart{std::chrono::seconds{1'795'300'000}};
 constexpr std::uint8_t kCameraType = 30, kNoAutopilotType = 8, kFirstCamera = 100, kSecondCamera = 101;
 constexpr float kNotTold = std::numeric_limits<float>::quiet_NaN();
 
-/// A vehicle whose clock is 0 at kCameraLinkStart, and which tells its attitude ten times a second.
-class CameraLink : public ::testing::Test {
+class CameraLink : public testing::ComponentLink {
  protected:
-  void SetUp() override { hear(vehicle_.heartbeat(), 1s); }
-
-  void begin_anew() {
-    link_ = VehicleLink(config_);
-    sink_ = {};
-    flown_ = 1s;
-    hear(vehicle_.heartbeat(), 1s);
+  /// What is asked for while the camera tells that it is there.
+  std::set<std::pair<int, int>> asked_of(FrameFactory& camera) {
+    return asked([&](Duration now) {
+      if (now % 1s == 0s) hear(camera.heartbeat(kNoAutopilotType, kCameraType), now);
+    });
   }
 
-  void hear(const Bytes& frame, Duration after_start) {
-    link_.consume(kCameraLinkStart + after_start, frame.data(), frame.size(), sink_);
-  }
-
-  /// The vehicle alone, until then.
-  void fly_until(Duration after_start) {
-    for (; flown_ <= after_start; flown_ += 100ms) hear(vehicle_.attitude(VehicleTime{flown_}), flown_);
-  }
-
-  /// The message and the component that are asked for, at any time of half a minute.
-  std::set<std::pair<int, int>> asked(FrameFactory& camera) {
-    std::set<std::pair<int, int>> found;
-    for (int i = 0; i < 300; ++i) {
-      const Duration now = 1s + i * 100ms;
-      fly_until(now);
-      if (i % 10 == 0) hear(camera.heartbeat(kNoAutopilotType, kCameraType), now);
-      link_.poll(kCameraLinkStart + now, [&](const std::uint8_t* frame, std::size_t) {
-        constexpr std::uint8_t kCommandLong = 76, kHeader = 10, kTargetComponent = 31;
-        if (frame[0] != 0xFD || frame[7] != kCommandLong) return;
-        float message_id = 0.0F;
-        std::memcpy(&message_id, frame + kHeader, sizeof message_id);
-        found.emplace(static_cast<int>(message_id), frame[kHeader + kTargetComponent]);
-      });
-    }
-    return found;
-  }
-
-  TelemetryCounts counts() const { return link_.status(kCameraLinkStart).telemetry; }
-
-  MavlinkConfig config_;
-  VehicleLink link_{config_};
-  testing::CollectingSink sink_;
-  FrameFactory vehicle_{{1, 1}}, camera_{{1, kFirstCamera}}, second_{{1, kSecondCamera}};
-  Duration flown_ = 1s;
+  FrameFactory camera_{{1, kFirstCamera}}, second_{{1, kSecondCamera}};
 };
 
 /// A camera counts from its own boot, which says nothing of the vehicle's clock.
@@ -135,7 +96,7 @@ TEST_F(CameraLink, TakesWhatTheAutopilotSaysOfACameraOnceItChanges) {
   }
   ASSERT_EQ(sink_.fields_of_view.size(), 10U);
   EXPECT_EQ(sink_.fields_of_view[0].time, VehicleTime{3s});
-  EXPECT_TRUE(link_.status(kCameraLinkStart + 5s).has_zoom_changed);
+  EXPECT_TRUE(status(5s).has_zoom_changed);
 }
 
 TEST_F(CameraLink, PrefersACameraToTheAutopilot) {
@@ -158,45 +119,49 @@ TEST_F(CameraLink, HearsNoEchoOfTheCameraThatGeolocIs) {
   EXPECT_TRUE(sink_.fields_of_view.empty());
 }
 
+/// Before it is known to be more than a parameter, too.
+TEST_F(CameraLink, TellsTheWidestThatWasHeardWhetherItIsUsedOrNot) {
+  const auto widest_deg = [&](Duration now) {
+    const auto view = status(now).widest_view;
+    return view ? *view->horizontal_rad * kDegPerRad : 0.0;
+  };
+  fly_until(3s);
+  EXPECT_EQ(widest_deg(3s), 0.0);
+  hear(vehicle_.field_of_view(VehicleTime{3s}, 62.0F, kNotTold), 3s);
+  EXPECT_TRUE(sink_.fields_of_view.empty());
+  EXPECT_NEAR(widest_deg(3s), 62.0, 1e-4);
+  hear(vehicle_.field_of_view(VehicleTime{3s + 200ms}, 31.0F, kNotTold), 3s + 200ms);
+  EXPECT_NEAR(widest_deg(4s), 62.0, 1e-4);
+  hear(camera_.field_of_view(VehicleTime{3s + 400ms}, 50.0F, kNotTold), 3s + 400ms);  // goes before it
+  EXPECT_NEAR(widest_deg(4s), 50.0, 1e-4);
+  begin_anew();
+  EXPECT_EQ(widest_deg(4s), 0.0);
+}
+
 TEST_F(CameraLink, AsksTheCameraItselfForItsFieldOfView) {
-  EXPECT_EQ(asked(camera_).count({271, kFirstCamera}), 1U);
+  EXPECT_EQ(asked_of(camera_).count({271, kFirstCamera}), 1U);
   config_.zoom_rate_hz = 0.0;
   begin_anew();
-  EXPECT_EQ(asked(camera_).count({271, kFirstCamera}), 0U);
+  EXPECT_EQ(asked_of(camera_).count({271, kFirstCamera}), 0U);
   config_ = {};
   config_.zoom_camera = kSecondCamera;
   begin_anew();
-  EXPECT_EQ(asked(camera_).count({271, kFirstCamera}), 0U) << "another is wanted";
+  EXPECT_EQ(asked_of(camera_).count({271, kFirstCamera}), 0U) << "another is wanted";
 }
 
 TEST_F(CameraLink, TellsOfACameraThatZoomsWithoutSayingWhatItSees) {
   fly_until(3s);
   hear(camera_.zoom_level(kNotTold), 3s);
   hear(camera_.zoom_level(20.0F), 3s);
-  EXPECT_FALSE(link_.status(kCameraLinkStart + 3s).zooms_untold);
+  EXPECT_FALSE(status(3s).zooms_untold);
   hear(camera_.zoom_level(55.0F), 3s);
-  EXPECT_TRUE(link_.status(kCameraLinkStart + 3s).zooms_untold);
+  EXPECT_TRUE(status(3s).zooms_untold);
   hear(camera_.field_of_view(VehicleTime{3s}, 60.0F, 40.0F), 3s);
-  EXPECT_FALSE(link_.status(kCameraLinkStart + 3s).zooms_untold);
+  EXPECT_FALSE(status(3s).zooms_untold);
 }
 
-/// A replay of a flight with a camera must give what it gave before cameras were listened to, but for zooms.
 TEST_F(CameraLink, TeachesNothingOfTheVehiclesClock) {
-  VehicleLink without{config_};
-  testing::CollectingSink sink;
-  const auto both_hear = [&](const Bytes& frame, Duration now) {
-    hear(frame, now);
-    without.consume(kCameraLinkStart + now, frame.data(), frame.size(), sink);
-  };
-  both_hear(vehicle_.heartbeat(), 1s);
-  for (int i = 0; i < 100; ++i) {
-    const Duration now = 1s + i * 100ms;
-    both_hear(vehicle_.attitude(VehicleTime{now - 30ms}), now);
-    hear(camera_.field_of_view(VehicleTime{now}, 60.0F, 40.0F), now);
-  }
-  for (const Duration at : {2s, 7s})
-    EXPECT_EQ(link_.clock().to_vehicle(kCameraLinkStart + at),
-              without.clock().to_vehicle(kCameraLinkStart + at));
+  expect_clock_untaught([&](VehicleTime now) { return camera_.field_of_view(now, 60.0F, 40.0F); });
 }
 
 }  // namespace

@@ -3,51 +3,28 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <set>
+#include <utility>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/io/mavlink/vehicle_link.hpp"
-#include "io/mavlink/collecting_sink.hpp"
+#include "io/mavlink/component_link.hpp"
 #include "io/mavlink/test_frames.hpp"
 
 namespace geoloc::io {
 namespace {
 
 using namespace std::chrono_literals;
-using testing::Bytes;
 using testing::FrameFactory;
 
-constexpr HostTime kSwitchedOn{std::chrono::seconds{1'795'300'000}};
 constexpr std::uint16_t kFromNose = 32;
 constexpr std::uint8_t kGimbal = 154, kSecondGimbal = 171;
 
-/// A vehicle whose clock is 0 at kSwitchedOn, and which tells its attitude ten times a second.
-class GimbalLink : public ::testing::Test {
+class GimbalLink : public testing::ComponentLink {
  protected:
-  void SetUp() override { hear(vehicle_.heartbeat(), 1s); }
-
-  void hear(const Bytes& frame, Duration after_start) {
-    link_.consume(kSwitchedOn + after_start, frame.data(), frame.size(), sink_);
-  }
-
-  /// The vehicle alone, until then.
-  void fly_until(Duration after_start) {
-    for (; flown_ <= after_start; flown_ += 100ms) hear(vehicle_.attitude(VehicleTime{flown_}), flown_);
-  }
-
   static double pitch_deg(const GimbalSample& sample) {
     return euler_angles(sample.level_from_gimbal).pitch_rad * kDegPerRad;
   }
-
-  TelemetryCounts counts() const { return link_.status(kSwitchedOn).telemetry; }
-
-  MavlinkConfig config_;
-  VehicleLink link_{config_};
-  testing::CollectingSink sink_;
-  FrameFactory vehicle_{{1, 1}};
-  Duration flown_ = 1s;
 };
 
 TEST_F(GimbalLink, DeliversWhatTheAutopilotSaysOfItsGimbalByItsOwnClock) {
@@ -56,10 +33,10 @@ TEST_F(GimbalLink, DeliversWhatTheAutopilotSaysOfItsGimbalByItsOwnClock) {
   ASSERT_EQ(sink_.gimbals.size(), 1U);
   EXPECT_EQ(sink_.gimbals[0].time, VehicleTime{1950ms});
   EXPECT_NEAR(pitch_deg(sink_.gimbals[0]), -0.7 * kDegPerRad, 1e-4);
-  const LinkStatus status = link_.status(kSwitchedOn + 2500ms);
-  EXPECT_EQ(status.gimbal->number(), 1);
-  EXPECT_EQ(status.gimbal_failure_flags, 4U);
-  EXPECT_EQ(*status.since_gimbal, 500ms);
+  const LinkStatus later = status(2500ms);
+  EXPECT_EQ(later.gimbal->number(), 1);
+  EXPECT_EQ(later.gimbal_failure_flags, 4U);
+  EXPECT_EQ(*later.since_gimbal, 500ms);
 }
 
 TEST_F(GimbalLink, PrefersTheMessageThatTellsMostAndTakesALesserOneWhereItEnds) {
@@ -112,7 +89,7 @@ TEST_F(GimbalLink, ListensToTheDeviceThatIsNamed) {
     }
     ASSERT_EQ(sink_.gimbals.size(), 20U) << number;
     EXPECT_NEAR(pitch_deg(sink_.gimbals.back()), (number == 2 ? -0.2 : -0.3) * kDegPerRad, 1e-4);
-    EXPECT_EQ(link_.status(kSwitchedOn).gimbal->number(), number);
+    EXPECT_EQ(status(0s).gimbal->number(), number);
   }
 }
 
@@ -138,44 +115,17 @@ TEST_F(GimbalLink, RefusesStampsThatCannotBe) {
   EXPECT_EQ(counts().suspect_stamps, 3U);
 }
 
-/// A replay of a flight with a gimbal that nobody uses must give what it gave before gimbals were read.
 TEST_F(GimbalLink, TeachesNothingOfTheVehiclesClock) {
-  VehicleLink without{config_};
-  testing::CollectingSink sink;
-  const auto both_hear = [&](const Bytes& frame, Duration now) {
-    hear(frame, now);
-    without.consume(kSwitchedOn + now, frame.data(), frame.size(), sink);
-  };
-  both_hear(vehicle_.heartbeat(), 1s);
-  for (int i = 0; i < 100; ++i) {
-    const Duration now = 1s + i * 100ms;
-    both_hear(vehicle_.attitude(VehicleTime{now - 30ms}), now);
-    hear(vehicle_.gimbal_device(VehicleTime{now}, -0.3, kFromNose), now);
-  }
-  for (const Duration at : {2s, 7s})
-    EXPECT_EQ(link_.clock().to_vehicle(kSwitchedOn + at), without.clock().to_vehicle(kSwitchedOn + at));
+  expect_clock_untaught([&](VehicleTime now) { return vehicle_.gimbal_device(now, -0.3, kFromNose); });
 }
 
 TEST_F(GimbalLink, AsksForAnglesOnlyWhereTheyAreWanted) {
+  constexpr std::pair<int, int> kDeviceAttitude{285, 1}, kMountOrientation{265, 1};
   for (const bool is_wanted : {false, true}) {
-    link_ = VehicleLink(config_, is_wanted);
-    flown_ = 1s;
-    hear(vehicle_.heartbeat(), 1s);
-    std::set<int> asked;
-    for (int i = 0; i < 300; ++i) {
-      const Duration now = 1s + i * 100ms;
-      fly_until(now);
-      link_.poll(kSwitchedOn + now, [&](const std::uint8_t* frame, std::size_t) {
-        constexpr std::uint8_t kCommandLong = 76, kHeader = 10, kV1Header = 6;
-        const bool is_v2 = frame[0] == 0xFD;
-        if (frame[is_v2 ? 7 : 5] != kCommandLong) return;
-        float message_id = 0.0F;
-        std::memcpy(&message_id, frame + (is_v2 ? kHeader : kV1Header), sizeof message_id);
-        asked.insert(static_cast<int>(message_id));
-      });
-    }
-    EXPECT_EQ(asked.count(285), is_wanted ? 1U : 0U);
-    EXPECT_EQ(asked.count(265), is_wanted ? 1U : 0U);
+    begin_anew(is_wanted);
+    const auto requests = asked();
+    EXPECT_EQ(requests.count(kDeviceAttitude), is_wanted ? 1U : 0U);
+    EXPECT_EQ(requests.count(kMountOrientation), is_wanted ? 1U : 0U);
   }
 }
 

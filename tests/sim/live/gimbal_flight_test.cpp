@@ -112,6 +112,18 @@ TEST(SimulatedGimbal, WithAWrongFlagTellsTheSameAnglesUnderTheOtherName) {
   }
 }
 
+TEST(SimulatedGimbal, ThatIsPerfectTellsHowItIsTurned) {
+  GimbalSettings settings;
+  settings.aim = GimbalAim::kSweep;
+  settings.is_perfect = true;
+  const Flight flight = with_gimbal(load("stock_path1"), settings, 3);
+  for (const HeardGimbal& one : hear_gimbals(flight)) {
+    const Eigen::Quaterniond truth =
+        true_level_from_gimbal(flight, one.message.sample.time, GimbalYaw::kFromNose);
+    EXPECT_LT(one.message.sample.level_from_gimbal.angularDistance(truth), 1e-3);  // told by floats
+  }
+}
+
 TEST(SimulatedGimbal, ThatTellsItsSetPointTellsItWithoutNoise) {
   GimbalSettings settings;
   settings.tells_set_point = true;

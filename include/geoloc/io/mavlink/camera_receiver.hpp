@@ -51,6 +51,7 @@ class CameraReceiver {
  private:
   bool is_it(std::uint8_t number) const;
   bool has_changed(const FieldOfViewSample& sample);
+  void note_view(const FieldOfViewSample& sample);
 
   int number_;  // the only camera that may be it; 0: any
   double rate_hz_;
@@ -60,6 +61,7 @@ class CameraReceiver {
   ComponentClock clock_;
   std::optional<double> first_angle_rad_;
   bool has_changed_ = false;
+  std::optional<FieldOfViewSample> widest_view_;
   std::optional<HostTime> last_;
   RateMeter meter_;
   std::optional<double> first_level_percent_;

@@ -11,6 +11,7 @@
 #include "geoloc/io/mavlink/gimbal_choice.hpp"
 #include "geoloc/io/mavlink/position_gate.hpp"
 #include "geoloc/io/mavlink/stream_requests.hpp"
+#include "geoloc/state/samples.hpp"
 
 namespace geoloc::io {
 
@@ -54,8 +55,9 @@ struct LinkStatus {
   std::uint32_t gimbal_failure_flags = 0;  ///< GIMBAL_DEVICE_ERROR_FLAGS, of its last message
   std::optional<Duration> since_field_of_view;
   double field_of_view_rate_hz = 0.0;
-  bool has_zoom_changed = false;  ///< of the camera, as its field of view tells
-  bool zooms_untold = false;      ///< the camera says that it zooms, and never its field of view
+  std::optional<FieldOfViewSample> widest_view;  ///< that the camera has told, whether it is used or not
+  bool has_zoom_changed = false;                 ///< of the camera, as its field of view tells
+  bool zooms_untold = false;  ///< the camera says that it zooms, and never its field of view
   VehicleClockMap::Source clock_source = VehicleClockMap::Source::kNone;
   std::optional<Duration> clock_error_bound;  ///< nullopt where only arrivals are known
   std::uint64_t lost_frames = 0;              ///< of the vehicle, by its sequence numbers

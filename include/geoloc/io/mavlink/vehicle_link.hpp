@@ -3,17 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <functional>
 #include <optional>
 #include <string>
 
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/io/mavlink/camera_receiver.hpp"
 #include "geoloc/io/mavlink/clock_mapping.hpp"
-#include "geoloc/io/mavlink/commands.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/gimbal_receiver.hpp"
+#include "geoloc/io/mavlink/link_sender.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
 #include "geoloc/io/mavlink/messages.hpp"
@@ -34,7 +32,7 @@ namespace geoloc::io {
 /// never on poll(): the recorded frames with their times give the same samples and the same clock map.
 class VehicleLink {
  public:
-  using Send = std::function<void(const std::uint8_t* frame, std::size_t size)>;
+  using Send = LinkSender::Send;
 
   /// `has_gimbal`: a gimbal's angles are asked for. They are delivered either way. Throws
   /// std::invalid_argument naming every problem.
@@ -48,7 +46,7 @@ class VehicleLink {
   void poll(HostTime now, const Send& send);
 
   /// Queues a line for the people at the ground stations (STATUSTEXT), at most two per second.
-  void say(const std::string& text);
+  void say(const std::string& text) { sender_.say(text); }
 
   const VehicleClockMap& clock() const { return clock_; }
   LinkStatus status(HostTime now) const;
@@ -92,9 +90,6 @@ class VehicleLink {
   void take_field_of_view(std::uint8_t component, const FieldOfViewMessage& message, const Arrival& arrival);
 
   void ask_anew(HostTime now);
-  void send_timesync(HostTime now, const Send& send);
-  void send_requests(HostTime now, const Send& send);
-  void send_text(HostTime now, const Send& send);
   MavAddress self() const;
   bool is_for_us(MavAddress target) const;
   bool is_of_vehicle(MavAddress sender) const;
@@ -123,12 +118,7 @@ class VehicleLink {
 
   // What poll() sends. None of it may reach what consume() delivers.
   StreamRequests requests_;
-  CommandWriter writer_;
-  std::optional<HostTime> last_heartbeat_;
-  std::optional<HostTime> last_timesync_;
-  std::deque<std::string> texts_;
-  std::optional<HostTime> last_text_;
-  int fast_timesyncs_ = 0;
+  LinkSender sender_;
 };
 
 }  // namespace geoloc::io

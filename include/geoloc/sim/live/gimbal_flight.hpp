@@ -24,6 +24,7 @@ struct GimbalSettings {
   GimbalYaw told_yaw = GimbalYaw::kFromNose;  ///< MOUNT_STATUS tells no other
   bool has_wrong_flag = false;                ///< what its yaw counts from is told wrongly
   bool tells_set_point = false;               ///< in place of what it measures
+  bool is_perfect = false;                    ///< it measures its angles rightly, and shakes by a tenth only
   GimbalTelling telling = GimbalTelling::kDeviceStatus;
 };
 
