@@ -16,8 +16,9 @@ constexpr double kDoubtToHold = 3.0, kMostDoubt = 12.0;
 constexpr double kNewPerFrame = 0.2;
 /// Frames see the same objects in the same places for so long: they count as one.
 constexpr double kIndependent_s = 0.5;
-/// What another latency must be better by to be believed: it is one of 141 (ln 141 = 5), with as much to
-/// spare; by what it must lead the others, and what is not worth holding frames for.
+/// What another latency must be better by to be believed, than the present one and than chance: it is one of
+/// 141 (ln 141 = 5), with as much to spare; by what it must lead the others, and what is not worth holding
+/// frames for.
 constexpr double kLeastGain = 10.0, kLeastLead = 6.0, kNoGain = 5.0;
 /// Frames, and their span, before any is judged.
 constexpr std::size_t kLeastFrames = 10;
@@ -182,6 +183,7 @@ std::optional<LatencyPrior> ClockWatch::decide(const PlaceFit& fit, double belie
   const Score& found = scores_[*best];
   const Score believed = score_of(believed_s, LatencyScores::kStep_s, found.frames, fit);
   if (gain(found, believed) < kLeastGain) return std::nullopt;
+  if (weight(found.frames) * found.mean() < kLeastGain) return std::nullopt;
   const auto peak = scores_.only_peak(*best, kLeastLead / weight(found.frames));
   if (!peak || span_s(found.frames) < kLeastSpan_s) return std::nullopt;
   const double latency_s = LatencyScores::latency_s(*best);
