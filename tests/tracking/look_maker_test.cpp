@@ -269,12 +269,13 @@ TEST_F(LooksFromAbove, MoveWithTheSharedErrors) {
   const CalibrationPrior prior;
   constexpr double kDegree = kPi / 180.0;
   // Turning about its right axis the camera looks north, about its down axis east; about its line of sight it
-  // sees the same. A late frame shows the vehicle farther back.
+  // sees the same. A late frame shows the vehicle farther back, a late position is farther back itself.
   Eigen::Matrix<double, 2, SharedError::kCalibrationSize> expected;
   expected.setZero();
   expected(1, 0) = kUp_m * prior.sigma_boresight_x_deg * kDegree;
   expected(0, 1) = kUp_m * prior.sigma_boresight_y_deg * kDegree;
   expected.col(3) = -prior.sigma_latency_s * Eigen::Vector2d(3.0, 4.0);
+  expected.col(6) = prior.sigma_position_lag_s * Eigen::Vector2d(3.0, 4.0);
   EXPECT_LT((look.jacobian.leftCols<SharedError::kCalibrationSize>() - expected).norm(), 1e-9);
   EXPECT_LT((look.jacobian.col(SharedError::kTime) + 0.05 * Eigen::Vector2d(3.0, 4.0)).norm(), 1e-12);
 }
@@ -311,7 +312,7 @@ TEST_F(LooksFromAbove, ShowWhatIsHigherWhereItsRayMeetsTheGround) {
 /// What the fix already holds of the calibration is undone in the sums' values; the offset was never in it.
 /// The latency and height that count are those that the view was located with, not the estimate.
 TEST_F(LooksFromAbove, AreCorrectedByOffsetAndDrift) {
-  errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.5, 0.0, 0.7, -0.4;
+  errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.5, 0.0, 0.02, 0.7, -0.4;
   view_.latency_s = 0.08;
   view_.lifted_m = 0.3;
   drift_.setZero();
@@ -328,7 +329,7 @@ TEST_F(LooksFromAbove, AreCorrectedByOffsetAndDrift) {
             1e-9);
   const FixJacobians jacobians = jacobians_of(detection.fix, view_, kUp_m);
   Eigen::Matrix<double, SharedError::kCalibrationSize, 1> applied;
-  applied << 0.01, -0.02, 0.03, 0.08, 0.3, 0.0;
+  applied << 0.01, -0.02, 0.03, 0.08, 0.3, 0.0, 0.02;
   const Eigen::Vector2d value =
       Eigen::Vector2d(6.0, 5.0) - jacobians.calibration.leftCols<SharedError::kCalibrationSize>() * applied;
   EXPECT_LT((look.observation.value - value).norm(), 1e-9);
@@ -394,7 +395,7 @@ class LooksAtKnownObjects : public LooksFromAbove {
     view_.enu_from_camera.translation = {2.0, -1.0, kPlane_m + kUp_m};
     view_.vehicle.velocity_in_enu = {3.0, 4.0, 1.2};
     view_.turn.rate_in_enu = {0.3, -0.1, 0.4};
-    errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.8, 0.05, 0.7, -0.4;
+    errors_.calibration.mean << 0.01, -0.02, 0.03, 0.1, 0.8, 0.05, 0.02, 0.7, -0.4;
     view_.focal_ratio = std::exp(0.05);
     drift_.head<2>() << 0.2, 0.3;
   }
@@ -414,7 +415,9 @@ class LooksAtKnownObjects : public LooksFromAbove {
     const Eigen::Vector3d turned_in_camera = truth.calibration.head<3>() - errors_.calibration.mean.head<3>();
     Rigid3d camera = view_.enu_from_camera;
     camera.rotation = turn(turned_in_enu) * camera.rotation * turn(turned_in_camera);
-    camera.translation -= late_s * vehicle.velocity_in_enu;
+    constexpr int kPositionLag = CalibrationIndex::kPositionLag;
+    const double lag_s = truth.calibration[kPositionLag] - errors_.calibration.mean[kPositionLag];
+    camera.translation += (lag_s - late_s) * vehicle.velocity_in_enu;
     camera.translation.head<2>() +=
         truth.calibration.segment<2>(CalibrationIndex::kOffset) + truth.drift.head<2>();
     camera.translation.z() +=

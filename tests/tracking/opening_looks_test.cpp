@@ -63,7 +63,7 @@ class OpeningFrames : public ::testing::Test {
   }
 
   void set_calibration(const Eigen::Vector3d& boresight, double latency_s, double height_m) {
-    errors_.calibration.mean << boresight, latency_s, height_m, 0.0, 0.3, -0.2;
+    errors_.calibration.mean << boresight, latency_s, height_m, 0.0, 0.02, 0.3, -0.2;
   }
 
   std::optional<FrameView> nominal_view(double time_s, double latency_s, const StateProvider& state) const {
@@ -90,6 +90,7 @@ class OpeningFrames : public ::testing::Test {
     const Eigen::Vector3d boresight = errors_.calibration.boresight_rad();
     if (boresight.norm() > 0.0)
       pose.rotation = pose.rotation * Eigen::AngleAxisd(boresight.norm(), boresight.normalized());
+    pose.translation += errors_.calibration.position_lag_s() * view.vehicle.velocity_in_enu;
     pose.translation.z() += view.lifted_m;
     return found;
   }

@@ -23,6 +23,7 @@ const MEANINGS = {
   "Frame times": "Where the capture times of frames come from: \"recovered\" from the camera's own clock, or \"arrival\" of the frame at this computer.",
   "Detection": "Time that the detector takes for one frame, on average.",
   "Capture to result": "Time from a frame's capture until its objects are known, on average.",
+  "Delay of the vehicle's position": "The vehicle tells where it was this long before, as seen against its attitude. geoloc corrects for it.",
   "Image delay": "A frame shows the world this long before the time it is stamped with. geoloc corrects for it.",
   "Camera turned about its x axis": "The camera is turned by this about the axis to the image's right, against the mount that is set. geoloc corrects for it.",
   "Camera turned about its y axis": "The camera is turned by this about the axis to the image's bottom, against the mount that is set. geoloc corrects for it.",
