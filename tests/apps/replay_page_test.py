@@ -88,7 +88,7 @@ class ReplayPage(BrowserTest):
             unexplained = page.evaluate("""() => [...document.querySelectorAll(".figures > div, #calibration tr")]
               .filter((figure) => !figure.dataset.meaning).map((figure) => figure.textContent)""")
             self.assertEqual(unexplained, [])
-            self.assertEqual(page.locator("#calibration tr").count(), 7)
+            self.assertEqual(page.locator("#calibration tr").count(), 8)
             page.locator("#calibration tr:has-text(\"Error of the vehicle's height\")").click()
             self.assertIn("not an altitude", page.locator("dialog[open]").inner_text())
             page.locator("dialog button").click()
