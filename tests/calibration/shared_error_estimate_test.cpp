@@ -141,7 +141,8 @@ TEST_F(SharedErrors, WhitenJacobians) {
   for (const bool is_learnt : {false, true}) {
     if (is_learnt) learn();
     Eigen::Matrix<double, 3, SharedError::kCalibrationSize> by_calibration;
-    by_calibration << 1, -2, 3, 0.5, -1, 2.5, 0.3, 2, -1, 4, 1.5, -3.5, -0.7, 0.2, 1, -3, 2, 0.9;
+    by_calibration << 1, -2, 3, 0.5, -1, 2.5, 1.1, 0.3, 2, -1, 4, 1.5, -3.5, -0.6, -0.7, 0.2, 1, -3, 2, 0.9,
+        2.2;
     Eigen::Matrix<double, 3, kNodeSize> by_drift;
     for (int i = 0; i < kNodeSize; ++i) by_drift.col(i) << 1.0 - i, 0.3 * i, std::cos(i);
     const SharedError::PointRow row = estimate_.whitened<3>(by_calibration, by_drift);
