@@ -12,7 +12,7 @@ namespace geoloc::apps {
 namespace {
 
 double angle_deg(int size_px, double focal_px) {
-  return 2.0 * std::atan(0.5 * size_px / focal_px) * kDegPerRad;
+  return angle_of_view_rad(size_px, focal_px) * kDegPerRad;
 }
 
 }  // namespace

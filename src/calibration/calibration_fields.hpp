@@ -38,8 +38,7 @@ void visit_fields(Visitor& v, CalibrationPrior& prior) {
           "field of view, 3 to 5 for an equivalent for film of 35 mm; 0 freezes it");
   v.field("sigma_position_lag_s", prior.sigma_position_lag_s, Range::closed(0, 1), "s",
           "1-sigma of position_lag_s before the flight: autopilots allow for their receiver's delay by a "
-          "guess; 0 "
-          "freezes it");
+          "guess; 0 freezes it");
 }
 
 }  // namespace geoloc

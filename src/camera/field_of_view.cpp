@@ -15,6 +15,10 @@ std::optional<double> zoom_by(const std::optional<double>& angle_rad, int size_p
 
 }  // namespace
 
+double angle_of_view_rad(int size_px, double focal_px) {
+  return 2.0 * std::atan(0.5 * size_px / focal_px);
+}
+
 std::optional<double> zoom_of_view(const std::optional<double>& horizontal_rad,
                                    const std::optional<double>& vertical_rad,
                                    const CameraIntrinsics& calibration) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
+#include "state/turning.hpp"
 
 namespace geoloc {
 namespace {
@@ -23,7 +24,7 @@ using Rate = Eigen::Matrix<double, 1, 1>;
 
 /// From rates about the body's axes.
 std::optional<Rate> yaw_rate(const AttitudeSample& sample) {
-  if (!sample.rates_in_body_radps || !sample.rates_in_body_radps->allFinite()) return std::nullopt;
+  if (!tells_rates(sample)) return std::nullopt;
   const Eigen::Vector3d& rates = *sample.rates_in_body_radps;
   const double roll_rad = sample.angles.roll_rad;
   return Rate((std::sin(roll_rad) * rates.y() + std::cos(roll_rad) * rates.z()) /

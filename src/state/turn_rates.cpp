@@ -23,10 +23,6 @@ Eigen::Vector3d turn_between(const EulerAngles& before, const EulerAngles& after
   return rotation_vector(ned_from_body(before).conjugate() * ned_from_body(after));
 }
 
-bool tells_rates(const AttitudeSample& sample) {
-  return sample.rates_in_body_radps && sample.rates_in_body_radps->allFinite();
-}
-
 }  // namespace
 
 void TurnRates::observe(const AttitudeSample& sample) {

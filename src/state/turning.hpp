@@ -5,6 +5,7 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/state/samples.hpp"
 
 namespace geoloc {
 
@@ -13,6 +14,10 @@ namespace geoloc {
 inline constexpr double kAngularAcceleration_radps2 = 8.0 * kRadPerDeg;
 /// What is turning may have begun or will end within this.
 inline constexpr double kTurnChange_s = 0.5;
+
+inline bool tells_rates(const AttitudeSample& sample) {
+  return sample.rates_in_body_radps && sample.rates_in_body_radps->allFinite();
+}
 
 /// The shortest turn that is such a rotation, about an axis of the same length [rad].
 inline Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) {

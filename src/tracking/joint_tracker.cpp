@@ -55,6 +55,12 @@ double height_above_plane_m(const Projector& projector, const FrameView& view) {
   return view.enu_from_camera.translation.z() - projector.config().ground_height_above_home_m;
 }
 
+/// Above the level ground, as the vehicle reports it: of a view that was lifted.
+double reported_height_of_lifted_m(const Projector& projector, const FrameView& view) {
+  return view.enu_from_camera.translation.z() -
+         (projector.config().ground_height_above_home_m + view.lifted_m) - view.terrain_m;
+}
+
 /// Where objects move to another slope of the ground, that is what is known of their height.
 void follow_ground(const GroundModel& ground, TrackTable& tracks) {
   if (ground.is_level()) return;
@@ -295,8 +301,7 @@ void JointTracker::begin_anew(const LatencyPrior& latency) {
 /// another, and any latency explains them as well.
 bool JointTracker::is_false_start(const LocatedFrame& located) const {
   if (!opening_looks_.is_open() || false_starts_ == kMostFalseStarts) return false;
-  const double above_ground_m = height_above_plane_m(located.projector, located.view);
-  const double reported_m = above_ground_m - located.view.lifted_m - located.view.terrain_m;
+  const double reported_m = reported_height_of_lifted_m(located.projector, located.view);
   return reported_m + errors_.calibration.height_m() < kOnTheGround * reported_m;
 }
 
@@ -364,8 +369,7 @@ JointFrame JointTracker::begin_frame(const LocatedFrame& located) {
   const double ground_height_m =
       located.projector.config().ground_height_above_home_m + located.view.lifted_m;
   if (errors_.drift.size() == 0) {
-    const double reported_m =
-        located.view.enu_from_camera.translation.z() - ground_height_m - located.view.terrain_m;
+    const double reported_m = reported_height_of_lifted_m(located.projector, located.view);
     errors_.height_prior = seen_from(reported_m, errors_.height_prior);
     errors_.calibration.mean[Index::kHeight] = errors_.height_prior.mean_m;
     bound_height(located.projector, located.view);

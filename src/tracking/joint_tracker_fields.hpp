@@ -36,8 +36,7 @@ void visit_noise_fields(Visitor& v, JointTrackerConfig& joint) {
           "Share of the position's variance that stays constant over a flight; the rest drifts");
   v.field("stated_offset_sigma_m", joint.stated_offset_sigma_m, Range::closed(0, 1000), "m",
           "Least 1-sigma per axis of the constant position error before the drift shows how good the "
-          "receiver is: "
-          "an RTK fix states centimetres against its base, and nothing of where that stands");
+          "receiver is: an RTK fix states centimetres against its base, and nothing of where that stands");
   v.field("least_offset_sigma_m", joint.least_offset_sigma_m, Range::closed(0, 1000), "m",
           "Least 1-sigma per axis of the constant position error, whatever the drift shows");
   v.field("fast_share", joint.fast_share, Range::closed(0, 1), "",

@@ -241,7 +241,8 @@ TEST(FocalLength, IsAsUncertainAsIsStatedWhereTheHeightChanges) {
   expect_right_sigma(rising_and_sinking(), kOfTilts_percent);
 }
 
-/// Of a receiver that is good to 0.3 m: what ripples within seconds is taken for tilts, more than is stated.
+/// The receiver is good to 0.3 m here. What the position of a worse one ripples by within seconds is taken
+/// for tilts, and the sigma does not say so.
 TEST(FocalLength, IsAsUncertainAsIsStatedWhereTheVehicleLeans) {
   Aids aids;
   aids.accuracy_m = 0.3;

@@ -11,6 +11,9 @@ namespace geoloc {
 /// farther from the calibration's is another zoom, or of another camera.
 inline constexpr double kMostViewError = 0.05;
 
+/// The angle of view from edge to edge [rad] of so many pixels, by a lens without distortion.
+double angle_of_view_rad(int size_px, double focal_px);
+
 /// How many times longer the focal length of a camera that sees so much from edge to edge [rad] is than the
 /// calibration's. The horizontal angle counts where it is told; nullopt where none is an angle of a lens.
 std::optional<double> zoom_of_view(const std::optional<double>& horizontal_rad,

@@ -28,9 +28,9 @@ class TurnRates {
   bool are_believed() const;
 
  private:
-  /// Of turns as the attitudes tell them, over those by the rates.
+  /// The slope of the turns that the attitudes tell over those that the rates tell.
   double slope() const;
-  /// Variance of what that leaves, per axis [rad^2].
+  /// Variance of what the slope does not explain, per axis [rad^2].
   double noise_squared() const;
 
   std::optional<AttitudeSample> newest_;

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 
+#include "geoloc/camera/field_of_view.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "pack.hpp"
 
@@ -27,7 +28,7 @@ std::uint32_t boot_ms(VehicleTime time) {
 }
 
 float field_of_view_deg(int size_px, double focal_length_px) {
-  return static_cast<float>(2.0 * std::atan(0.5 * size_px / focal_length_px) * kDegPerRad);
+  return static_cast<float>(angle_of_view_rad(size_px, focal_length_px) * kDegPerRad);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "geoloc/camera/field_of_view.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/sim/flight/random_stream.hpp"
@@ -43,7 +44,7 @@ ZoomTrajectory draw_zoom(const TimeSpan& span, const ZoomSettings& settings, Ran
 }
 
 float told_angle_deg(int size_px, double focal_px) {
-  const double angle_deg = 2.0 * std::atan(0.5 * size_px / focal_px) * kDegPerRad;
+  const double angle_deg = angle_of_view_rad(size_px, focal_px) * kDegPerRad;
   return static_cast<float>(std::round(angle_deg / kTold_deg) * kTold_deg);
 }
 

@@ -89,7 +89,7 @@ class ComponentLink : public ::testing::Test {
  private:
   static constexpr Duration kStep = std::chrono::milliseconds{100};
 
-  /// Of a COMMAND_LONG in either version of MAVLink.
+  /// The message that a COMMAND_LONG asks for and the component that it asks, in either version of MAVLink.
   static std::optional<std::pair<int, int>> request_in(const std::uint8_t* frame) {
     constexpr std::uint8_t kCommandLong = 76, kTargetComponent = 31;
     const bool is_v2 = frame[0] == 0xFD;
