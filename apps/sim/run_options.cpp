@@ -79,6 +79,11 @@ void add_run_options(CLI::App& program, RunOptions& options) {
   add(kFlightGroup, "--end-s", settings.end_s, "End, s on the vehicle's clock [survey height left]");
 
   add(kCameraGroup, "--frame-rate", settings.frame_rate_hz, "Frames a second")->capture_default_str();
+  add(kCameraGroup, "--image-size", options.image_size_px, "Width and height of a picture, even, px")
+      ->type_name("WIDTHxHEIGHT")
+      ->default_str("1280x720")
+      ->delimiter('x')
+      ->check(CLI::Range(16, 8192));
   add(kCameraGroup, "--fov-deg", options.horizontal_fov_deg, "Horizontal field of view, deg")
       ->capture_default_str();
   CLI::Option* const mount_pitch = add(kCameraGroup, "--mount-pitch-deg", settings.camera.mount.pitch_deg,
@@ -124,7 +129,10 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed) {
   settings.seed = seed;
   const double fov_deg = options.horizontal_fov_deg;
   if (!(fov_deg > 0.0 && fov_deg < 170.0)) throw std::invalid_argument("--fov-deg must lie in (0, 170)");
-  settings.camera.intrinsics = CameraIntrinsics::from_field_of_view(1280, 720, fov_deg);
+  const auto [width_px, height_px] = options.image_size_px;
+  if (width_px % 2 != 0 || height_px % 2 != 0)
+    throw std::invalid_argument("--image-size: a video needs an even width and height");
+  settings.camera.intrinsics = CameraIntrinsics::from_field_of_view(width_px, height_px, fov_deg);
   settings.camera.intrinsics.distortion = options.distortion;
   if (to_settings(options.gimbal)) settings.camera.mount = CameraMount::on_gimbal();
   settings.errors.lens_is_calibrated = !options.uncalibrated_lens;

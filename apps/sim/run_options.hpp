@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,7 @@ struct RunOptions {
   std::string jump;  ///< its name; empty: none
   AttitudeNoise attitude_noise;
   std::optional<double> telemetry_rate_hz;
+  std::array<int, 2> image_size_px{1280, 720};
   double horizontal_fov_deg = 70.0;
   std::array<double, 5> distortion{};
   bool uncalibrated_lens = false;
