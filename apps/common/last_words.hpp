@@ -7,7 +7,7 @@ namespace geoloc::apps {
 
 /// From now on, what would abort the program ends it with a reason on stderr and exit status kFailed: an
 /// exception that nobody catches, in any thread, and a library's own abort for want of memory, threads or
-/// open files (GLib raises SIGTRAP). `program` must be a literal.
+/// open files (GLib raises SIGTRAP, others use what they were not given). `program` must be a literal.
 void leave_last_words(const char* program);
 
 /// Says the reason as far as stderr takes it, and ends the program with exit status kFailed.

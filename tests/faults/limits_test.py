@@ -50,6 +50,18 @@ class Limits(FaultTest):
         self.assertEqual(status, 1, words)
         self.assertRegex(words.splitlines()[-1], "^geoloc_app: .*(memory|allocate|Resource temporarily unavailable)")
 
+    @unittest.skipIf(SANITIZED, "sanitizers need addresses without limit")
+    def test_a_library_that_uses_what_it_was_not_given_is_a_reason(self):
+        for most, status, reason in ((100 * MIB, 1, "not enough memory"), (resource.RLIM_INFINITY, -signal.SIGSEGV, "")):
+            with self.subTest(most=most), open(self.folder / "stderr", "w+", encoding="utf-8") as stderr:
+                app = self.start(stderr=stderr)
+                wait_until(self.objects_file.exists, "the first results")
+                resource.prlimit(app.pid, resource.RLIMIT_AS, (most, most))
+                app.send_signal(signal.SIGSEGV)  # as gst-libav does where it gets no context of a decoder
+                self.assertEqual(app.wait(PATIENCE_S), status)
+                stderr.seek(0)
+                self.assertIn(reason, stderr.read())
+
     def test_an_abort_of_glib_is_a_reason(self):
         with open(self.folder / "stderr", "w+", encoding="utf-8") as stderr:
             app = self.start(stderr=stderr)
