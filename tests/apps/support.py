@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import pty
+import random
 import re
 import signal
 import socket
@@ -29,10 +30,15 @@ def run(program, *arguments, timeout=PATIENCE_S, **options):
 
 
 def free_port(kind=socket.SOCK_DGRAM):
-    """A free port on the loopback."""
-    with socket.socket(socket.AF_INET, kind) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
+    """A free port on the loopback, below those that the system gives to whoever asks for any: they may be taken until it is used."""
+    while True:
+        with socket.socket(socket.AF_INET, kind) as probe:
+            port = random.randrange(10000, 32000)
+            try:
+                probe.bind(("127.0.0.1", port))
+                return port
+            except OSError:
+                continue
 
 
 def open_terminal():
