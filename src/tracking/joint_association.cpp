@@ -140,7 +140,7 @@ void JointAssociation::assign(const Posterior& posterior, const Held& held,
   }
 }
 
-void JointAssociation::explain(const Pairing* start, const Held& held) {
+void JointAssociation::explain(Starts starts, const Pairing* start, const Held& held) {
   if (hypothesis_count_ == hypotheses_.size()) return;
   Hypothesis& hypothesis = hypotheses_[hypothesis_count_++];
   Posterior posterior;
@@ -157,7 +157,8 @@ void JointAssociation::explain(const Pairing* start, const Held& held) {
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
     if (hypothesis.pairing_of_look[look] == kNone) hypothesis.cost += cost_alone_of_look_[look];
   }
-  if (held.look_left_alone != kNone) hypothesis.cost += ambiguity_ - kAmbiguityAlone;
+  if (starts == Starts::kAmbiguousLooks && held.look_left_alone != kNone)
+    hypothesis.cost += ambiguity_ - kAmbiguityAlone;
 }
 
 /// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.
@@ -169,13 +170,13 @@ void JointAssociation::try_other_explanations(Starts starts) {
       return hypothesis.pairing_of_look[look] == p;
     });
     if (starts == Starts::kEveryPairing) {
-      explain(&pairings_[p], {kNone, &pairings_[p]});
+      explain(starts, &pairings_[p], {kNone, &pairings_[p]});
     } else if (pairings_of_look_[look] > 1 && !is_held) {
-      explain(&pairings_[p], {});
+      explain(starts, &pairings_[p], {});
     }
   }
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
-    if (is_doubtful(look)) explain(nullptr, {look, nullptr});
+    if (starts == Starts::kEveryPairing || is_doubtful(look)) explain(starts, nullptr, {look, nullptr});
   }
 }
 
@@ -229,7 +230,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
     for (const Pairing& pairing : pairings_) matches_[pairing.look] = match_of(pairing);
     return matches_;
   }
-  explain(nullptr, {});
+  explain(Starts::kAmbiguousLooks, nullptr, {});
   try_other_explanations(Starts::kAmbiguousLooks);
   report_best();
   return matches_;
@@ -237,7 +238,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
 
 const std::vector<JointAssociation::Match>& JointAssociation::solve_thoroughly() {
   matches_.assign(pairings_of_look_.size(), Match{});
-  explain(nullptr, {});
+  explain(Starts::kEveryPairing, nullptr, {});
   try_other_explanations(Starts::kEveryPairing);
   report_best();
   return matches_;

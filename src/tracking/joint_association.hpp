@@ -64,7 +64,7 @@ class JointAssociation {
   const std::vector<Match>& solve();
 
   /// The same, but looks must agree also where none has a choice, and of each pair the best explanation that
-  /// holds it is compared.
+  /// holds it is compared, and the best that leaves a look alone.
   const std::vector<Match>& solve_thoroughly();
 
   /// Pairs within the gate, in the order they were added.
@@ -109,7 +109,7 @@ class JointAssociation {
     }
   };
 
-  void explain(const Pairing* start, const Held& held);
+  void explain(Starts starts, const Pairing* start, const Held& held);
   void assign(const Posterior& posterior, const Held& held, std::vector<std::size_t>& pairing_of_look);
   void try_other_explanations(Starts starts);
   void report_best();

@@ -16,6 +16,7 @@
 #include "tracking/misses.hpp"
 #include "tracking/range_aid.hpp"
 #include "tracking/sleep_cycle.hpp"
+#include "tracking/survey_references.hpp"
 
 namespace geoloc {
 namespace {
@@ -47,6 +48,10 @@ constexpr double kSigmaOfFoundFocal = 0.006;
 constexpr double kOnTheGround = 0.1;
 /// So often the flight's first looks are explained anew, each time with twice the noise of the attitude.
 constexpr int kMostFalseStarts = 2;
+
+/// What all surveyed objects share varies by so much of what they do not, at least: a receiver that jumps once
+/// in a flight is not rare.
+constexpr double kLeastShared = 4.0;
 
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
 constexpr double kSigmaOfFoundLatency_s = 0.1;
@@ -84,16 +89,6 @@ std::size_t update_covariances(const ArrowheadSolver::Solution& solution, Vehicl
     if (budget > 0 && track.last_near != now) update(track);
   }
   return budget;
-}
-
-/// What an object's position is off by besides what all of them are, per axis: half of what it differs from
-/// another's by that was found at another time, since neighbours share more than that.
-double own_variance_m2(std::size_t row, const TrackTable& tracks, const ArrowheadSolver::Solution& solution,
-                       const FrameNoise& noise) {
-  const std::size_t other = (row + tracks.size() / 2) % tracks.size();
-  if (other == row) return 0.5 * tracks[row].own_covariance.topLeftCorner<2, 2>().trace();
-  return 0.25 *
-         covariance_of_difference(tracks[row], tracks[other], solution, noise).topLeftCorner<2, 2>().trace();
 }
 
 }  // namespace
@@ -515,7 +510,7 @@ void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, 
   const std::size_t budget = known_points_.is_empty() ? kCovariancesPerSolution : tracks_.size();
   const std::size_t left = update_covariances(*solution, frame.time(), budget, tracks_);
   let_sleep(located, *solution, left);
-  if (!match_known_points(*solution, noise)) return;
+  if (!match_known_points(*solution)) return;
   if (const auto with_known_points = solve(located, frame))
     update_covariances(*with_known_points, frame.time(), budget, tracks_);
 }
@@ -578,26 +573,27 @@ void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
 /// where there is some that the solution does not have. The first point tells what the position is off by,
 /// and for it that is taken to be no less than the receiver states: that its error wanders little does not
 /// show how large it is.
-bool JointTracker::match_known_points(const Solution& solution, const FrameNoise& noise) {
+bool JointTracker::match_known_points(const Solution& solution) {
   if (known_points_.is_empty()) return false;
   known_candidates_.clear();
+  const SurveyReferences references(tracks_);
   double variance = 0.0, own_variance = 0.0;  // per axis, sums over the candidates
-  for (std::size_t row = 0; row < tracks_.size(); ++row) {
-    const RestingObject& object = tracks_[row];
+  for (const RestingObject& object : tracks_) {
     const Track& track = object.track;
     if (track.hits < kHitsToCompare) continue;
+    const double own_m2 = references.own_variance_m2(object, solution);
     variance += 0.5 * track.position_in_enu.covariance.trace();
-    own_variance += own_variance_m2(row, tracks_, solution, noise);
+    own_variance += own_m2;
     known_candidates_.push_back(
-        {track.id, object.is_confirmed(), track.class_id(), track.position_in_enu.mean});
+        {track.id, object.is_confirmed(), track.class_id(), track.position_in_enu.mean, std::sqrt(own_m2)});
   }
   if (known_candidates_.empty()) return false;
   const auto count = static_cast<double>(known_candidates_.size());
-  double shared_variance = std::max(0.0, (variance - own_variance) / count);
+  double shared_variance = std::max(kLeastShared * own_variance, variance - own_variance) / count;
   if (!known_points_.has_matched())
     shared_variance = std::max(shared_variance, 0.5 * std::pow(errors_.accuracy.changing_m(), 2));
-  const KnownPointMatcher::Sigma sigma{std::sqrt(shared_variance), std::sqrt(own_variance / count)};
-  if (!known_points_.match(known_candidates_, sigma, config_.gate, config_.ambiguity)) return false;
+  if (!known_points_.match(known_candidates_, std::sqrt(shared_variance), config_.gate, config_.ambiguity))
+    return false;
   for (RestingObject& object : tracks_) {
     const auto survey = known_points_.survey_of(object.track.id);
     if (!survey || object.is_known) continue;

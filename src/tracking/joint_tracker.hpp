@@ -88,7 +88,7 @@ class JointTracker final : public Tracker {
   void learn_wandering(const Solution& solution);
   void merge_compatible(const Solution& solution, const JointFrame& frame, const FrameNoise& noise);
   void merge(std::size_t kept, std::size_t gone);
-  bool match_known_points(const Solution& solution, const FrameNoise& noise);
+  bool match_known_points(const Solution& solution);
   bool is_full() const;
   void wake_near(const LocatedFrame& located, const JointFrame& frame);
   void let_sleep(const LocatedFrame& located, const Solution& solution, std::size_t covariances);

@@ -7,6 +7,7 @@
 
 #include "geoloc/geometry/angles.hpp"
 #include "settings/field_checker.hpp"
+#include "tracking/gaussian.hpp"
 #include "tracking/known_point_fields.hpp"
 
 namespace geoloc {
@@ -21,9 +22,10 @@ constexpr double kGone = 3e-3;
 constexpr double kAround_m = 5.0, kLeastDensity = 0.01;
 /// One for each object that it may be, and that it is none; bounded, since each takes an assignment.
 constexpr std::size_t kExplanationsPerPoint = 17, kMostExplanations = 200;
-/// In a thousand points one may be taken for another's object that stands where its own was not seen
-/// (2 ln 1000).
-constexpr double kCertainty = 13.8;
+constexpr int kSolutionsToProve = 3;
+/// In 250 points one may be taken for another's object that stands where its own was not seen
+/// (2 ln 250).
+constexpr double kCertainty = 11.0;
 
 }  // namespace
 
@@ -50,15 +52,14 @@ void KnownPointMatcher::look_at(Entry& entry, VehicleTime now, double found) {
 
 /// The density of objects that may stand there while the point's own was not seen, times a factor that asks
 /// for that certainty.
-double KnownPointMatcher::density_of_others(std::size_t open,
-                                            const std::vector<Candidate>& candidates) const {
+double KnownPointMatcher::density_of_others(std::size_t open, const std::vector<Candidate>& candidates,
+                                            double ambiguity) const {
   const Entry& entry = entries_[open_[open]];
   const auto around = std::count_if(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
     return (candidate.position_in_enu - entry.on_ground_in_enu->head<2>()).norm() < kAround_m;
   });
   const double density = std::max(kLeastDensity, static_cast<double>(around) / (kPi * kAround_m * kAround_m));
-  return density * std::max(entry.unseen, kGone) *
-         std::exp(0.5 * (kCertainty - JointAssociation::kAmbiguityAlone));
+  return density * std::max(entry.unseen, kGone) * std::exp(0.5 * (kCertainty - ambiguity));
 }
 
 void KnownPointMatcher::list_open() {
@@ -69,43 +70,69 @@ void KnownPointMatcher::list_open() {
 }
 
 void KnownPointMatcher::add_pairings(std::size_t open, const std::vector<Candidate>& candidates,
-                                     const Sigma& sigma) {
+                                     double shared_sigma_m) {
   const KnownPoint& point = points_[open_[open]];
-  const double variance = sigma.own_m * sigma.own_m + point.sigma_m * point.sigma_m;
   Pairing pairing;
   pairing.look = open;
   pairing.jacobian.setZero();
-  pairing.jacobian.middleCols<2>(SharedError::kFrame).diagonal().setConstant(sigma.shared_m);
-  pairing.own_covariance = variance * Eigen::Matrix2d::Identity();
+  pairing.jacobian.middleCols<2>(SharedError::kFrame).diagonal().setConstant(shared_sigma_m);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
     if (point.class_id && *point.class_id != candidates[k].class_id) continue;
     if (point_of(candidates[k].track_id)) continue;
+    const double variance = std::pow(candidates[k].own_sigma_m, 2) + point.sigma_m * point.sigma_m;
+    pairing.own_covariance = variance * Eigen::Matrix2d::Identity();
     pairing.track = k;
     pairing.residual = entries_[open_[open]].on_ground_in_enu->head<2>() - candidates[k].position_in_enu;
     association_.add(pairing);
   }
 }
 
-bool KnownPointMatcher::match(const std::vector<Candidate>& candidates, const Sigma& sigma, double gate,
+/// Solutions follow each other while the first looks at an object come in, which move it by more than they
+/// should: several have to say the same.
+bool KnownPointMatcher::is_proven(Entry& entry, std::uint64_t track_id) {
+  if (entry.likely_id != track_id) entry.likely_for = 0;
+  entry.likely_id = track_id;
+  return ++entry.likely_for >= kSolutionsToProve;
+}
+
+/// By one solution.
+KnownPointStatus KnownPointMatcher::status_of(const JointAssociation::Match& match,
+                                              const Candidate* candidate, double gate) const {
+  if (match.is_ambiguous || (candidate != nullptr && !candidate->is_confirmed))
+    return KnownPointStatus::kAmbiguous;
+  const bool agrees = candidate != nullptr && distance_squared(match) <= gate;
+  return agrees ? KnownPointStatus::kMatched : KnownPointStatus::kNoObject;
+}
+
+/// Of a match by itself, whatever the other points say of the shared error.
+double KnownPointMatcher::distance_squared(const JointAssociation::Match& match) const {
+  const JointAssociation::Match alone = association_.match_of(association_.pairings()[match.pairing]);
+  return mahalanobis_squared(alone.innovation, alone.innovation_covariance);
+}
+
+bool KnownPointMatcher::match(const std::vector<Candidate>& candidates, double shared_sigma_m, double gate,
                               double ambiguity) {
   list_open();
   if (open_.empty()) return false;
-  association_.begin(open_.size(), gate, ambiguity);
+  // A candidate beyond the gate is not matched, but may be as likely as one within.
+  association_.begin(open_.size(), gate + ambiguity, ambiguity);
   for (std::size_t i = 0; i < open_.size(); ++i) {
-    association_.expect_new(i, density_of_others(i, candidates));
-    add_pairings(i, candidates, sigma);
+    association_.expect_new(i, density_of_others(i, candidates, ambiguity));
+    add_pairings(i, candidates, shared_sigma_m);
   }
   const auto& matches = association_.solve_thoroughly();
   bool is_new = false;
   for (std::size_t i = 0; i < open_.size(); ++i) {
     KnownPointMatch& known = matches_[open_[i]];
+    Entry& entry = entries_[open_[i]];
     const Candidate* const candidate = matches[i].track ? &candidates[*matches[i].track] : nullptr;
-    if (matches[i].is_ambiguous || (candidate != nullptr && !candidate->is_confirmed)) {
+    known.status = status_of(matches[i], candidate, gate);
+    if (known.status != KnownPointStatus::kMatched) {
+      entry.likely_for = 0;
+    } else if (!is_proven(entry, candidate->track_id)) {
       known.status = KnownPointStatus::kAmbiguous;
-    } else if (candidate == nullptr) {
-      known.status = KnownPointStatus::kNoObject;
     } else {
-      known = {KnownPointStatus::kMatched, candidate->track_id};
+      known.track_id = candidate->track_id;
       is_new = true;
     }
   }

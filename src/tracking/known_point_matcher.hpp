@@ -27,12 +27,7 @@ class KnownPointMatcher {
     bool is_confirmed;
     int class_id;
     Eigen::Vector2d position_in_enu;
-  };
-
-  /// Uncertainty of the candidates' positions, 1-sigma per axis.
-  struct Sigma {
-    double shared_m;  ///< of the error that they share
-    double own_m;     ///< of the rest
+    double own_sigma_m;  ///< 1-sigma per axis of what it is off by besides the error that all share
   };
 
   /// What a matched point says of its object.
@@ -77,8 +72,9 @@ class KnownPointMatcher {
     }
   }
 
-  /// Matches what is not matched yet. True where something new was matched.
-  bool match(const std::vector<Candidate>& candidates, const Sigma& sigma, double gate, double ambiguity);
+  /// Matches what is not matched yet. shared_sigma_m: 1-sigma per axis of the error that all candidates
+  /// share. True where something new was matched.
+  bool match(const std::vector<Candidate>& candidates, double shared_sigma_m, double gate, double ambiguity);
 
   /// Track `gone` is now called `kept`.
   void rename(std::uint64_t gone, std::uint64_t kept);
@@ -95,13 +91,20 @@ class KnownPointMatcher {
   struct Entry {
     std::optional<Eigen::Vector3d> on_ground_in_enu;  // once a frame was seen
     std::optional<VehicleTime> covered_at;            // last
-    double unseen = 1.0;  // probability that no frame so far has shown the point's object
+    double unseen = 1.0;          // probability that no frame so far has shown the point's object
+    std::uint64_t likely_id = 0;  // the track that was it, by the last solutions,
+    int likely_for = 0;           // and for how many of them
   };
 
   static void look_at(Entry& entry, VehicleTime now, double found);
   void list_open();
-  void add_pairings(std::size_t open, const std::vector<Candidate>& candidates, const Sigma& sigma);
-  double density_of_others(std::size_t open, const std::vector<Candidate>& candidates) const;
+  void add_pairings(std::size_t open, const std::vector<Candidate>& candidates, double shared_sigma_m);
+  double density_of_others(std::size_t open, const std::vector<Candidate>& candidates,
+                           double ambiguity) const;
+  bool is_proven(Entry& entry, std::uint64_t track_id);
+  KnownPointStatus status_of(const JointAssociation::Match& match, const Candidate* candidate,
+                             double gate) const;
+  double distance_squared(const JointAssociation::Match& match) const;
   double level_m() const;
   std::optional<std::size_t> point_of(std::uint64_t track_id) const;
 
