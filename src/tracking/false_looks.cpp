@@ -11,12 +11,26 @@ namespace {
 
 /// Looks from which on the others outvote one, and those after it in which they do.
 constexpr int kLeastHits = 4, kHitsToTell = 60;
+/// What a camera sees moves alike within this share of its height.
+constexpr double kNear = 0.1;
 /// So few looks are better begun anew than kept with a false one.
 constexpr int kFewHits = 16;
 
 /// Whether the sums still hold the look as it was added.
 bool can_be_taken_out(const DecisiveLook& look, const DriftTimeline& drift) {
   return look.observation.span.first >= drift.begin_of_fine();
+}
+
+/// Of a look's residual by itself and by what the shared errors make of look and object.
+Eigen::Matrix2d residual_covariance(const LandmarkObservation& observation, const Eigen::Matrix2d& noise,
+                                    const PointMatrix& own, const RestingObject& object,
+                                    const SharedErrorEstimate& errors) {
+  const Eigen::Matrix<double, 2, kPointSize> H = observation.point_jacobian();
+  const SharedError::Row shared =
+      errors.whitened<2>(observation.calibration_jacobian.leftCols<SharedError::kCalibrationSize>(),
+                         observation.node_jacobian) -
+      H * object.sensitivity;
+  return noise + H * own * H.transpose() + squared(shared);
 }
 
 /// Density of the look where the object's other looks are right [1/m^2].
@@ -29,12 +43,8 @@ double density_by_others(const DecisiveLook& look, const RestingObject& object,
       PointMatrix(object.landmark->A() - H.transpose() * observation.information * H).inverse();
   const Point position =
       own * (object.weighted_position - observation.weighted_position(calibration, errors.drift));
-  const SharedError::Row shared =
-      errors.whitened<2>(observation.calibration_jacobian.leftCols<SharedError::kCalibrationSize>(),
-                         observation.node_jacobian) -
-      H * object.sensitivity;
   return density(observation.seen(calibration, errors.drift) - H * position,
-                 look.noise + H * own * H.transpose() + squared(shared));
+                 residual_covariance(observation, look.noise, own, object, errors));
 }
 
 bool is_false(const std::optional<DecisiveLook>& look, double odds, const RestingObject& object,
@@ -45,6 +55,19 @@ bool is_false(const std::optional<DecisiveLook>& look, double odds, const Restin
 }
 
 }  // namespace
+
+bool is_far(const Look& look, const JointAssociation::Match& match) {
+  return match.innovation.norm() > kNear * look.camera_height_m;
+}
+
+bool agrees(const LandmarkObservation& observation, const RestingObject& object, double gate,
+            const SharedErrorEstimate& errors) {
+  const Eigen::Vector2d residual = observation.seen(errors.calibration.mean, errors.drift) -
+                                   observation.point_jacobian() * object.position_in_enu;
+  const Eigen::Matrix2d covariance = residual_covariance(observation, observation.information.inverse(),
+                                                         object.own_covariance, object, errors);
+  return mahalanobis_squared(residual, covariance) < gate;
+}
 
 std::optional<DecisiveLook> drop_false_looks(RestingObject& object, const Look& newest, const FalseOdds& odds,
                                              const SharedErrorEstimate& errors) {

@@ -4,9 +4,20 @@
 #include <optional>
 
 #include "calibration/shared_error_estimate.hpp"
+#include "tracking/joint_association.hpp"
+#include "tracking/look.hpp"
 #include "tracking/resting_object.hpp"
 
 namespace geoloc {
+
+/// Whether the look lies so far from where its object should be seen that what either says of the shared
+/// errors is another thing: in a turn, say, where a late frame moves each of them in its own direction.
+bool is_far(const Look& look, const JointAssociation::Match& match);
+
+/// Whether a look agrees with the object where that should be seen (`observation` is linearised there). gate:
+/// squared Mahalanobis distance.
+bool agrees(const LandmarkObservation& observation, const RestingObject& object, double gate,
+            const SharedErrorEstimate& errors);
 
 /// How much more probable a look was nothing than the object, before it is compared with the object's others.
 struct FalseOdds {

@@ -49,8 +49,8 @@ constexpr double kOnTheGround = 0.1;
 /// So often the flight's first looks are explained anew, each time with twice the noise of the attitude.
 constexpr int kMostFalseStarts = 2;
 
-/// What all surveyed objects share varies by so much of what they do not, at least: a receiver that jumps once
-/// in a flight is not rare.
+/// What all surveyed objects share varies by so much of what they do not, at least: a receiver that jumps
+/// once in a flight is not rare.
 constexpr double kLeastShared = 4.0;
 
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
@@ -436,12 +436,16 @@ void JointTracker::absorb_matched(const FrameLooks& frame_looks, const Explanati
     const JointAssociation::Match& match = explanation.match_of_look[i];
     if (!match.is_certain()) continue;
     RestingObject& track = tracks_[*match.track];
-    track.existence.hit(found, density(match.innovation, match.innovation_covariance),
-                        looks[i].clutter_density);
-    record_look(track, looks[i], frame.time(), frame.view.captured_at_host);
     Look look = looks[i];
     look.observation =
         look_maker_.linearised_at(track.position_in_enu, look, frame_looks.share_attitude, frame, errors_);
+    if (is_far(look, match) && !agrees(look.observation, track, config_.gate, errors_)) {
+      track.look.reset();
+      track.is_seen = false;
+      continue;
+    }
+    track.existence.hit(found, density(match.innovation, match.innovation_covariance), look.clutter_density);
+    record_look(track, look, frame.time(), frame.view.captured_at_host);
     add_to_sums(track, look, errors_);
     opening_looks_.add(track.track.id, looks[i].detection);
     recent_looks_.add(track.track.id, frame.time(), look);
