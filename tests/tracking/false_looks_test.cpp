@@ -113,5 +113,35 @@ TEST_F(FalseLooks, SumsBeginAnewWhereTheLookIsInThemNoMore) {
   EXPECT_LT((object.track.position_in_enu.mean - last.position).norm(), 1e-6);
 }
 
+/// What each look says agrees with the object as often as its sigmas let expect; the shared error of a
+/// frame's time counts as the look states it where the object should be seen, here along east.
+TEST_F(FalseLooks, LooksFarAsideAgreeOnlyAlongWhatTheFrameMayBeOffBy) {
+  constexpr double kGate = 11.8;
+  RestingObject& object = begin(look_along(0.0));
+  pass(object, 20);
+  const auto agrees_at = [&](const Eigen::Vector2d& aside) {
+    LandmarkObservation observation = testing::lone_look(kPlace + aside, kVariance_m2).observation;
+    const Eigen::Vector2d late_m(8.0, 0.0);
+    observation.information =
+        (kVariance_m2 * Eigen::Matrix2d::Identity() + late_m * late_m.transpose()).inverse();
+    return agrees(observation, object, kGate, errors_);
+  };
+  EXPECT_TRUE(agrees_at({0.0, 0.0}));
+  EXPECT_TRUE(agrees_at({20.0, 0.0}));
+  EXPECT_FALSE(agrees_at({40.0, 0.0}));
+  EXPECT_FALSE(agrees_at({0.0, 1.0}));
+  EXPECT_FALSE(agrees_at({20.0, 1.0}));
+}
+
+TEST_F(FalseLooks, FarIsAMatterOfTheCamerasHeight) {
+  Look look = look_along(0.0);
+  JointAssociation::Match match;
+  match.innovation = {3.0, 0.0};
+  look.camera_height_m = 20.0;
+  EXPECT_TRUE(is_far(look, match));
+  look.camera_height_m = 80.0;
+  EXPECT_FALSE(is_far(look, match));
+}
+
 }  // namespace
 }  // namespace geoloc
