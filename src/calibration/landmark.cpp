@@ -44,7 +44,8 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   if (is_frozen) value += observation.sway_jacobian() * drift.sway().spell(observation.span.spell).mean;
   const Eigen::Vector2d Wy = W * value;
   const Eigen::Matrix<double, 2, CalibrationIndex::kSize> WJc = W * Jc;
-  const CalibrationMatrix JcWJc = Jc.transpose() * WJc;
+  // lazyProduct: Eigen takes matrices of this size for large ones, and packs them first.
+  const CalibrationMatrix JcWJc = Jc.transpose().lazyProduct(WJc);
   const CalibrationVector JcWy = Jc.transpose() * Wy;
   const Eigen::Matrix<double, 2, kPointSize> WH = W * observation.point_jacobian();
   A_ += by_point(WH, slope);
