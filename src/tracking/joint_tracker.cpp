@@ -16,7 +16,6 @@
 #include "tracking/misses.hpp"
 #include "tracking/range_aid.hpp"
 #include "tracking/sleep_cycle.hpp"
-#include "tracking/survey_references.hpp"
 
 namespace geoloc {
 namespace {
@@ -48,10 +47,6 @@ constexpr double kSigmaOfFoundFocal = 0.006;
 constexpr double kOnTheGround = 0.1;
 /// So often the flight's first looks are explained anew, each time with twice the noise of the attitude.
 constexpr int kMostFalseStarts = 2;
-
-/// What all surveyed objects share varies by so much of what they do not, at least: a receiver that jumps
-/// once in a flight is not rare.
-constexpr double kLeastShared = 4.0;
 
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
 constexpr double kSigmaOfFoundLatency_s = 0.1;
@@ -109,13 +104,13 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
       detection_rate_(config.detection_probability),
       clutter_rate_(config.clutter_per_frame),
       known_points_(std::move(known_points), most_awake(config)),
+      surveyed_(most_awake(config)),
       tracks_(most_awake(config)),
       recent_looks_(max_detections),
       moving_(config_, max_detections),
       sleeping_(config.drift),
       published_(config.max_tracks) {
   if (!config.moving.classes.empty()) published_with_moving_.reserve(config.max_tracks + most_awake(config));
-  known_candidates_.reserve(most_awake(config));
   sleeping_.reserve(TrackTable::kRowsAtFirst);
 }
 
@@ -514,7 +509,8 @@ void JointTracker::refine(const LocatedFrame& located, const JointFrame& frame, 
   const std::size_t budget = known_points_.is_empty() ? kCovariancesPerSolution : tracks_.size();
   const std::size_t left = update_covariances(*solution, frame.time(), budget, tracks_);
   let_sleep(located, *solution, left);
-  if (!match_known_points(*solution)) return;
+  if (!surveyed_.match(*solution, errors_.accuracy, config_.gate, config_.ambiguity, known_points_, tracks_))
+    return;
   if (const auto with_known_points = solve(located, frame))
     update_covariances(*with_known_points, frame.time(), budget, tracks_);
 }
@@ -571,40 +567,6 @@ void JointTracker::merge(std::size_t kept_row, std::size_t gone_row) {
   published_.remove(gone.track.id);
   tracks_.remove(gone_row);
   ++book_.counters.merged;
-}
-
-/// A surveyed object's coordinates are information on its position, and through the head on all others'. True
-/// where there is some that the solution does not have. The first point tells what the position is off by,
-/// and for it that is taken to be no less than the receiver states: that its error wanders little does not
-/// show how large it is.
-bool JointTracker::match_known_points(const Solution& solution) {
-  if (known_points_.is_empty()) return false;
-  known_candidates_.clear();
-  const SurveyReferences references(tracks_);
-  double variance = 0.0, own_variance = 0.0;  // per axis, sums over the candidates
-  for (const RestingObject& object : tracks_) {
-    const Track& track = object.track;
-    if (track.hits < kHitsToCompare) continue;
-    const double own_m2 = references.own_variance_m2(object, solution);
-    variance += 0.5 * track.position_in_enu.covariance.trace();
-    own_variance += own_m2;
-    known_candidates_.push_back(
-        {track.id, object.is_confirmed(), track.class_id(), track.position_in_enu.mean, std::sqrt(own_m2)});
-  }
-  if (known_candidates_.empty()) return false;
-  const auto count = static_cast<double>(known_candidates_.size());
-  double shared_variance = std::max(kLeastShared * own_variance, variance - own_variance) / count;
-  if (!known_points_.has_matched())
-    shared_variance = std::max(shared_variance, 0.5 * std::pow(errors_.accuracy.changing_m(), 2));
-  if (!known_points_.match(known_candidates_, std::sqrt(shared_variance), config_.gate, config_.ambiguity))
-    return false;
-  for (RestingObject& object : tracks_) {
-    const auto survey = known_points_.survey_of(object.track.id);
-    if (!survey || object.is_known) continue;
-    add_prior(object, survey->information());
-    object.is_known = true;
-  }
-  return true;
 }
 
 bool JointTracker::is_full() const {

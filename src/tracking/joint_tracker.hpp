@@ -23,6 +23,7 @@
 #include "tracking/recent_looks.hpp"
 #include "tracking/sleeping_objects.hpp"
 #include "tracking/solution_schedule.hpp"
+#include "tracking/surveyed_objects.hpp"
 #include "tracking/track_table.hpp"
 #include "tracking/tracker.hpp"
 #include "tracking/turned_yaw.hpp"
@@ -88,7 +89,6 @@ class JointTracker final : public Tracker {
   void learn_wandering(const Solution& solution);
   void merge_compatible(const Solution& solution, const JointFrame& frame, const FrameNoise& noise);
   void merge(std::size_t kept, std::size_t gone);
-  bool match_known_points(const Solution& solution);
   bool is_full() const;
   void wake_near(const LocatedFrame& located, const JointFrame& frame);
   void let_sleep(const LocatedFrame& located, const Solution& solution, std::size_t covariances);
@@ -114,6 +114,7 @@ class JointTracker final : public Tracker {
   ClutterRate clutter_rate_;
   ConfidenceEvidence confidence_;
   KnownPointMatcher known_points_;
+  SurveyedObjects surveyed_;
   TrackTable tracks_;
   OpeningLooks opening_looks_;
   int false_starts_ = 0;
@@ -121,9 +122,8 @@ class JointTracker final : public Tracker {
   MovingTracker moving_;
   TrackBook book_;
   SleepingObjects sleeping_;
-  PublishedTracks published_;                                   // of the objects at rest
-  std::vector<Track> published_with_moving_;                    // where there are moving classes
-  std::vector<KnownPointMatcher::Candidate> known_candidates_;  // scratch of match_known_points
+  PublishedTracks published_;                 // of the objects at rest
+  std::vector<Track> published_with_moving_;  // where there are moving classes
 };
 
 }  // namespace geoloc
