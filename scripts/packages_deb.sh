@@ -9,8 +9,8 @@ mkdir -p build out/packages
 source scripts/packages.sh
 install_packages "${BUILD_PACKAGES[@]}" "${GDAL_PACKAGES[@]}" dpkg-dev file
 
-# Debian's flags: checks of memory, as programs should have that talk with a network; how to optimise is said by the build type.
-eval "$(DEB_BUILD_MAINT_OPTIONS=hardening=+all DEB_CFLAGS_STRIP='-g -O2' DEB_CXXFLAGS_STRIP='-g -O2' dpkg-buildflags --export=sh)"
+LDFLAGS=$(DEB_BUILD_MAINT_OPTIONS=hardening=+bindnow dpkg-buildflags --get LDFLAGS)
+export LDFLAGS
 configure release "${PROGRAMS_ONLY[@]}" -B build/packages -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_DISABLE_FIND_PACKAGE_OpenVINO=ON "$@"
 say "Building (build/packages)"
 cmake --build build/packages
