@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 mkdir -p build
-packages=$(tr '\n' ' ' <README.md | sed -n 's/.*pip install \.`[^`]*apt-get install \([^`]*\)`.*/\1/p')
+packages=$(tr '\n' ' ' <README.md | grep -o 'apt-get install g++ python3-dev[^`]*' | cut -d ' ' -f 3-)
 [ -n "$packages" ] || { echo "README.md names no packages for pip install ." >&2; exit 1; }
 apt-get update -q >/dev/null
 # shellcheck disable=SC2086 # names are words
