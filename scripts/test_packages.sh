@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# scripts/test_packages.sh [apt|pip|wheel…]: makes what users install, in one bare Debian, and installs and uses it in another
-# (tests/bare). All three take some 30 minutes on two cores; logs are in build/packages_test. FRESH_MACHINE names a program that runs its
+# scripts/test_packages.sh [apt|pip|wheel|arm64…]: makes what users install, in one bare Debian, and installs and uses it in another
+# (tests/bare). All take some 30 minutes on two cores; logs are in build/packages_test. FRESH_MACHINE names a program that runs its
 # arguments in a clean clone of HEAD on a bare machine, as root; SUITE is the Debian.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -9,7 +9,7 @@ fresh_machine=${FRESH_MACHINE:-../shared/tools/fresh_machine.sh}
 [ -f "$fresh_machine" ] || { echo "$fresh_machine is missing: name it with FRESH_MACHINE" >&2; exit 2; }
 logs=build/packages_test
 mkdir -p "$logs"
-[ $# -gt 0 ] || set -- apt pip wheel
+[ $# -gt 0 ] || set -- apt pip wheel arm64
 say() { printf '\033[1m== %s\033[0m\n' "$*" >&2; }
 
 # on_bare_machine NAME COMMAND…: its messages go to a log, whose end is shown if it fails.
@@ -34,6 +34,9 @@ for what in "$@"; do
         apt-get install -y -q --no-install-recommends g++ python3-dev python3-venv libeigen3-dev libgeographiclib-dev binutils
         bash scripts/wheels.sh; tar c -C out/wheels . >&3' >"$logs/wheels.tar"
       on_bare_machine wheel 'exec 1>&2; mkdir -p out/wheels; tar x -C out/wheels; bash tests/bare/wheel.sh out/wheels' <"$logs/wheels.tar"
+      ;;
+    arm64)
+      on_bare_machine arm64 'exec 1>&2; bash scripts/cross_arm64.sh'
       ;;
     *) sed -n '3,5s/^# //p' "$0" >&2; exit 2 ;;
   esac
