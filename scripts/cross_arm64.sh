@@ -8,11 +8,7 @@ ROOT=$(cd "$(dirname "$0")/.." && pwd)
 cd "$ROOT"
 mkdir -p build out/packages
 source scripts/packages.sh
-if ! dpkg --print-foreign-architectures | grep -qx arm64; then
-  dpkg --add-architecture arm64
-  apt-get update -q >/dev/null
-fi
-install_packages "${LIBRARY_PACKAGES[@]}" g++-aarch64-linux-gnu libgeographiclib-dev:arm64 dpkg-dev file python3-minimal qemu-user-static
+install_packages g++ cmake ninja-build libeigen3-dev libgeographiclib-dev pkg-config dpkg-dev file python3-minimal
 
 library=(-DCMAKE_BUILD_TYPE=Release -DGEOLOC_BUILD_IO=OFF -DGEOLOC_BUILD_SIM=OFF -DGEOLOC_BUILD_APPS=OFF -DGEOLOC_BUILD_TESTS=OFF
   -DCMAKE_INSTALL_PREFIX=/usr -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=16)
@@ -23,8 +19,22 @@ build_in() {
   cmake -S . -B "$1" -G Ninja "${library[@]}" "${@:2}" >build/configure.log 2>&1 || { cat build/configure.log; return 1; }
   cmake --build "$1"
 }
+# build_estimators PREFIX-OF-THE-COMPILERS FOLDER
+build_estimators() {
+  "$1g++" -std=c++17 -O2 -Iinclude -isystem /usr/include/eigen3 tests/languages/estimate.cpp "$2/src/libgeoloc.a" -lGeographicLib \
+    -o "$2/estimate_in_cpp"
+  "$1gcc" -std=c99 -O2 -Iinclude tests/languages/estimate.c -L"$2/c" -lgeoloc_c -Wl,-rpath,"$ROOT/$2/c" -o "$2/estimate_in_c"
+}
 build_in build/native
+build_estimators "" build/native
+
+if ! dpkg --print-foreign-architectures | grep -qx arm64; then
+  dpkg --add-architecture arm64
+  apt-get update -q >/dev/null
+fi
+install_packages g++-aarch64-linux-gnu libgeographiclib-dev:arm64 qemu-user-static  # takes the place of this processor's
 build_in build/arm64 -DCMAKE_TOOLCHAIN_FILE="$ROOT/cmake/aarch64-linux-gnu.cmake"
+build_estimators aarch64-linux-gnu- build/arm64
 file -L build/arm64/c/libgeoloc_c.so | grep -q 'ARM aarch64'
 
 say "Packing"
@@ -45,14 +55,6 @@ done
 qemu-aarch64-static build/arm64/from_c | diff "build/native/03_from_c.txt" -
 
 say "A minute of flight on both processors"
-# build_estimators PREFIX-OF-THE-COMPILERS FOLDER
-build_estimators() {
-  "$1g++" -std=c++17 -O2 -Iinclude -isystem /usr/include/eigen3 tests/languages/estimate.cpp "$2/src/libgeoloc.a" -lGeographicLib \
-    -o "$2/estimate_in_cpp"
-  "$1gcc" -std=c99 -O2 -Iinclude tests/languages/estimate.c -L"$2/c" -lgeoloc_c -Wl,-rpath,"$ROOT/$2/c" -o "$2/estimate_in_c"
-}
-build_estimators "" build/native
-build_estimators aarch64-linux-gnu- build/arm64
 feed=build/native/feed.txt
 python3 tests/languages/synthetic_feed.py >"$feed"
 build/native/estimate_in_cpp "$feed" >build/native/flight.txt
