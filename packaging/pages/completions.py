@@ -86,11 +86,11 @@ def zsh(parsed):
     lines = [f"#compdef {parsed.name}", f"# Completion of {parsed.name} in zsh; made from its --help."]
     if not parsed.commands:
         return "\n".join([*lines, *zsh_arguments(parsed), "    '*:file:_files'"]) + "\n"
-    lines += ["if (( CURRENT > 2 )); then", "  local command=$words[2]", "  shift words", "  (( CURRENT-- ))", "  case $command in"]
+    lines += ["if (( CURRENT > 2 )); then", "  local chosen=$words[2]", "  shift words", "  (( CURRENT-- ))", "  case $chosen in"]
     for name, command in parsed.commands.items():
         lines += [f"  {name})", *zsh_arguments(command), "    '*:file:_files'", "  ;;"]
     described = " ".join(quoted(f"{name}:{command.summary}") for name, command in parsed.commands.items())
-    lines += ["  esac", "else", f"  local -a commands=({described})", "  _describe command commands", *zsh_arguments(parsed), "    '*: :'", "fi"]
+    lines += ["  esac", "else", f"  local -a known=({described})", "  _describe command known", *zsh_arguments(parsed), "    '*: :'", "fi"]
     return "\n".join(lines) + "\n"
 
 

@@ -23,7 +23,7 @@ def sentence(text):
 
 def details(option):
     """What the help writes beside an option's name, in words."""
-    words = [sentence(option.text[:1].upper() + option.text[1:])]
+    words = [sentence(option.text)]
     if option.choices:
         words.append("One of: " + ", ".join(option.choices) + ".")
     if option.bounds:
