@@ -23,7 +23,7 @@ for what in "$@"; do
   case $what in
     apt)
       on_bare_machine deb 'exec 3>&1 1>&2; set -e; apt-get update -q; apt-get install -y -q --no-install-recommends lintian man-db
-        bash scripts/packages_deb.sh; lintian --fail-on error out/packages/*.deb; tar c -C out/packages . >&3' >"$logs/debs.tar"
+        bash scripts/packages_deb.sh -DGEOLOC_WARNINGS_AS_ERRORS=ON; lintian --fail-on error out/packages/*.deb; tar c -C out/packages . >&3' >"$logs/debs.tar"
       on_bare_machine apt 'exec 1>&2; mkdir -p out/packages; tar x -C out/packages; bash tests/bare/apt.sh out/packages' <"$logs/debs.tar"
       ;;
     pip)
