@@ -41,7 +41,8 @@ fail() {
 "$bin/geoloc_sim" "${sim_options[@]}" --udp "127.0.0.1:$udp_port" --rtsp-port "$rtsp_port" \
   --truth "$out/truth.geojson" 2>"$out/sim.log" &
 sim=$!
-for _ in $(seq 100); do [ -s "$out/truth.geojson" ] && break; kill -0 "$sim" 2>/dev/null || break; sleep 0.1; done
+# On a computer's first flight, GStreamer looks at all of its plugins: that took 20 s on a busy one.
+for _ in $(seq 600); do [ -s "$out/truth.geojson" ] && break; kill -0 "$sim" 2>/dev/null || break; sleep 0.1; done
 
 if [ -s "$out/truth.geojson" ]; then
   "$bin/geoloc_app" --udp "127.0.0.1:$udp_port" --rtsp "rtsp://127.0.0.1:$rtsp_port/cam" "${app_options[@]}" \

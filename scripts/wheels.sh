@@ -11,6 +11,7 @@ mkdir -p build out/wheels
 tools=build/wheel-tools
 install_from_pypi "$tools" scripts/wheels_requirements.txt --only-binary :all: --no-deps
 
+export CCACHE_BASEDIR=$ROOT CCACHE_NOHASHDIR=true  # the library is compiled once for all interpreters
 [ $# -gt 0 ] || set -- python3
 for python in "$@"; do
   version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')

@@ -20,6 +20,6 @@ run("${CMAKE_COMMAND}" -S "${source}" -B "${source}/build" -G "${GENERATOR}"
 run("${CMAKE_COMMAND}" --build "${source}/build")
 run("${source}/build/consumer")
 string(REGEX MATCH "// ([0-9.]+, [0-9.]+)\n" line "${program}")
-if(NOT line OR NOT output MATCHES "\n${CMAKE_MATCH_1}\n$")
+if(NOT line OR NOT output STREQUAL "${CMAKE_MATCH_1}\n")
   message(FATAL_ERROR "README.md says ${line}, but it prints\n${output}")
 endif()

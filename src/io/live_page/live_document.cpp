@@ -69,6 +69,7 @@ void LiveDocument::add(const LiveStatus& status) {
   const std::lock_guard lock(mutex_);
   publish();
   set("status", page_json::status(status));
+  status_ = status;
 }
 
 void LiveDocument::add(const RunRecord& run) {
@@ -110,6 +111,13 @@ RunRecord LiveDocument::record() const {
     if (entry.is_confirmed) run.objects.push_back(entry.report);
   }
   return run;
+}
+
+RunFigures LiveDocument::figures() const {
+  const std::lock_guard lock(mutex_);
+  const auto confirmed = std::count_if(objects_.begin(), objects_.end(),
+                                       [](const auto& one) { return one.second.is_confirmed; });
+  return {status_, run_.estimator, static_cast<std::size_t>(confirmed)};
 }
 
 void LiveDocument::show_object(std::uint64_t id, std::string jpeg) {

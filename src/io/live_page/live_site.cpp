@@ -14,6 +14,7 @@
 #include "form_fields.hpp"
 #include "geoloc/io/output/palette.hpp"
 #include "geoloc/io/output/text.hpp"
+#include "metrics.hpp"
 #include "page_access.hpp"
 #include "page_files.hpp"
 #include "page_json.hpp"
@@ -207,6 +208,7 @@ PageAnswer LiveSite::dispatch(const PageRequest& request) const {
   if (path == "/settings")
     return json(page_json::settings(config_, actions_.note && access_->may_change(request)));
   if (path.compare(0, kTiles.size(), kTiles) == 0) return tile(path.substr(kTiles.size()));
+  if (path == "/metrics") return {200, kMetricsType, metrics_text(document_.figures()), false};
   if (auto file = files_->find(path)) return {200, file->type, std::move(file->content), false};
   if (path.compare(0, kObjects.size(), kObjects) == 0) {
     if (const auto pictured = object_of_path(path, kPicture)) {

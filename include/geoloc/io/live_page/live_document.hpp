@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -23,6 +24,13 @@ namespace geoloc::io {
 struct LivePageTitle {
   std::string name;     ///< of the run: the stream, or the recording
   bool is_live = true;  ///< otherwise a recording is replayed
+};
+
+/// A run in figures, for those who watch many.
+struct RunFigures {
+  std::optional<LiveStatus> status;  ///< of a live run
+  EstimatorReport estimator;
+  std::size_t objects = 0;  ///< confirmed
 };
 
 /// The state of a run as pages see it. Thread-safe; memory is bounded.
@@ -75,6 +83,8 @@ class LiveDocument {
 
   /// The run as files tell it, without its raw fixes. The trajectory is that of the last run added.
   RunRecord record() const;
+
+  RunFigures figures() const;
 
   /// Grows with every change.
   std::uint64_t revision() const;
@@ -138,6 +148,7 @@ class LiveDocument {
   std::map<std::uint64_t, Picture> pictures_;  // by object
   std::uint64_t pictures_made_ = 0;
   RunRecord run_;  // without objects
+  std::optional<LiveStatus> status_;
   HostTime newest_at_{};
   std::vector<Eigen::Vector2d> path_;
   std::uint64_t path_epoch_ = 1;

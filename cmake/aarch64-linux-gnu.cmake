@@ -1,0 +1,10 @@
+# For 64-bit Arm with Debian's cross compiler: -DCMAKE_TOOLCHAIN_FILE=cmake/aarch64-linux-gnu.cmake; scripts/cross_arm64.sh does all of it.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR aarch64)
+set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
+set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
+set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH /usr/aarch64-linux-gnu)
+set(CMAKE_INSTALL_LIBDIR lib/aarch64-linux-gnu CACHE PATH "")
+set(CPACK_DEBIAN_PACKAGE_ARCHITECTURE arm64)
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-aarch64-static)
