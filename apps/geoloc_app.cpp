@@ -91,7 +91,10 @@ struct Program {
   std::string source() const { return options.rtsp_url.empty() ? options.video_file : "live run"; }
 
   io::RunRecord record() const {
-    return record_run(session, inputs.detector->class_names(), inputs.truth, "geoloc: " + source());
+    io::RunRecord run =
+        record_run(session, inputs.detector->class_names(), inputs.truth, "geoloc: " + source());
+    add_summary(options.outputs, session, run);
+    return run;
   }
 
   LiveOptions options;

@@ -224,8 +224,9 @@ int main(int argc, char** argv) {
   for (const std::string& line : program->show->session().take_news())
     std::fprintf(stderr, "geoloc_replay: %s\n", line.c_str());
 
-  const io::RunRecord record =
+  io::RunRecord record =
       record_run(program->show->session(), program->recording.class_names, program->truth, options.recording);
+  add_summary(options.outputs, program->show->session(), record);
   program->outputs.finish(record);
   program->show->show_end();
   program->tell_all();

@@ -2,7 +2,11 @@
 #include "common/output_options.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string_view>
 
+#include "common/session_summary.hpp"
+#include "geoloc/io/fleet/summary_file.hpp"
 #include "geoloc/io/output/cot_sink.hpp"
 #include "geoloc/io/output/csv.hpp"
 #include "geoloc/io/output/file_sink.hpp"
@@ -19,7 +23,37 @@ std::string raw_csv(const io::RunRecord& run) {
   return io::raw_fixes_to_csv(run.raw_fixes, run.local_frame.value_or(LocalFrame({0.0, 0.0})));
 }
 
+bool ends_in_json(const std::string& file) {
+  constexpr std::string_view kEnd = ".json";
+  return file.size() >= kEnd.size() && file.compare(file.size() - kEnd.size(), kEnd.size(), kEnd) == 0;
+}
+
+std::string summary_text(const io::RunRecord& run, bool is_json) {
+  if (!run.flight_summary)
+    throw std::runtime_error(
+        "there is no flight to summarise: no frame was located, since the vehicle's "
+        "position was not known");
+  return is_json ? io::summary_to_json(*run.flight_summary) : io::summary_to_bytes(*run.flight_summary);
+}
+
+/// Throws std::invalid_argument where there will be none, or none that can be read.
+void check_summary(const OutputOptions& options, const EstimationConfig& config) {
+  if (options.summary.empty()) return;
+  if (config.geolocator.method != Method::kJoint)
+    throw std::invalid_argument(
+        "--summary: the method paper does not know what its objects are off by in "
+        "common; use --method joint");
+  FlightSummary named;
+  named.identity.flight = options.flight_id.empty() ? "a" : options.flight_id;
+  for (const std::string& problem : named.problems())
+    throw std::invalid_argument("--flight-id " + options.flight_id + ": " + problem);
+}
+
 }  // namespace
+
+void add_summary(const OutputOptions& options, const Session& session, io::RunRecord& run) {
+  if (!options.summary.empty()) run.flight_summary = summarize_session(session, options.flight_id);
+}
 
 bool OutputOptions::wants_table() const {
   return objects.empty() && std::find(jsonl.begin(), jsonl.end(), "-") == jsonl.end();
@@ -43,6 +77,14 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
               "URL");
   add("--raw", options.raw, "Every located detection, CSV");
   add("--picture", options.picture, "Map of the run, SVG");
+  add("--summary", options.summary,
+      "All that the flight knows of its objects, for geoloc_fuse; JSON where the name ends in .json");
+  program
+      .add_option("--flight-id", options.flight_id,
+                  "Name of the flight in its summary [time and place of its start, and the vehicle's number]")
+      ->type_name("NAME")
+      ->needs(program.get_option("--summary"))
+      ->group("Outputs");
   CLI::Option* const http = program.add_option(
       "--http", options.http,
       "A page that shows the run, for browsers: PORT for those of this computer, or HOST:PORT");
@@ -68,6 +110,7 @@ NamedFiles files_of(const OutputOptions& options) {
   add_named(files, "--csv", options.csv);
   add_named(files, "--kml", options.kml);
   add_named(files, "--picture", options.picture);
+  add_named(files, "--summary", options.summary);
   for (const std::string& target : options.jsonl) {
     if (target != "-") add_named(files, "--jsonl", target);
   }
@@ -103,6 +146,10 @@ void add_sinks(const OutputOptions& options, const EstimationConfig& config, io:
   for (const std::string& target : options.cot)
     outputs.add(std::make_unique<io::CotSink>(target, config.cot, outputs.teller()));
   add("--picture", options.picture, [](const io::RunRecord& run) { return io::to_svg(io::picture_of(run)); });
+  check_summary(options, config);
+  add("--summary", options.summary, [is_json = ends_in_json(options.summary)](const io::RunRecord& run) {
+    return summary_text(run, is_json);
+  });
 }
 
 }  // namespace geoloc::apps

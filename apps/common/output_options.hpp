@@ -19,6 +19,8 @@ struct OutputOptions {
   std::string http;                ///< [HOST:]PORT of the live page
   std::string http_token;          ///< file of the token that the live page asks for; empty: it asks for none
   std::string map;                 ///< file of the page's background map
+  std::string summary;             ///< of the flight, for geoloc_fuse
+  std::string flight_id;           ///< its name in the summary; empty: time and place of its start
   std::string csv;                 ///< of the objects
   std::string kml;                 ///< of the run
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output
@@ -31,7 +33,8 @@ struct OutputOptions {
   bool wants_raw_fixes() const { return !raw.empty() || !picture.empty(); }
 };
 
-/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --http, --http-token, --map.
+/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --summary, --flight-id, --http, --http-token,
+/// --map.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
 /// Those of them that are files, for check_outputs().
@@ -39,6 +42,9 @@ NamedFiles files_of(const OutputOptions& options);
 
 /// The files that they read, as inputs for check_outputs().
 NamedFiles inputs_of(const OutputOptions& options);
+
+/// The flight's summary, where an output asks for it.
+void add_summary(const OutputOptions& options, const Session& session, io::RunRecord& run);
 
 /// A sink for each, but for the live page (open_live_page()). `old_files`: of the names that are in use.
 /// Throws std::invalid_argument for a target that is none.

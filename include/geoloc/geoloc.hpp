@@ -5,6 +5,8 @@
 #include "geoloc/camera/camera.hpp"
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/camera/field_of_view.hpp"
+#include "geoloc/fleet/flight_summary.hpp"
+#include "geoloc/fleet/fusion.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"

@@ -74,6 +74,12 @@ class ArrowheadSolver {
     /// Covariance of the difference of two objects' positions [m^2]: what they share cancels.
     PointMatrix covariance_of_difference(const Landmark& a, const Landmark& b) const;
 
+    /// The head's part of covariance() as a root, L L' [m], with a column for each of size_of_head()
+    /// independent errors of variance one. They are the same for all objects: L_a L_b' is the covariance
+    /// between two.
+    EnvelopeCholesky::Rows shared_error(const Landmark& landmark) const;
+    Eigen::Index size_of_head() const { return layout_.size(); }
+
     /// How strongly the position was seen to wander, in units of what the nodes' prior says: one step of
     /// expectation maximisation. `drift` holds this solution's means, and the scale that it was found with.
     /// nullopt while there are too few nodes to tell. Costs as much as a solution.
@@ -82,6 +88,7 @@ class ArrowheadSolver {
    private:
     friend class ArrowheadSolver;
     double sum_of_steps(const DriftTimeline& drift, int component) const;
+    void gather_sensitivity(const Landmark& landmark) const;
     Solution(ArrowheadSolver& solver, const HeadLayout& layout);
 
     ArrowheadSolver* solver_;

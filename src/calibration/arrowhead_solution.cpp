@@ -94,10 +94,21 @@ PointMatrix ArrowheadSolver::head_covariance(Eigen::Index first) {
   return used.lazyProduct(used.transpose());
 }
 
-PointMatrix ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
+/// Of an object's position, its height above the reported home.
+void ArrowheadSolver::Solution::gather_sensitivity(const Landmark& landmark) const {
   solver_->sensitivities_.leftCols(layout_.size()).setZero();
   solver_->add_sensitivity(landmark, layout_, 1.0);
   solver_->sensitivities_(2, layout_.column_of_calibration() + CalibrationIndex::kHeight) -= 1.0;
+}
+
+EnvelopeCholesky::Rows ArrowheadSolver::Solution::shared_error(const Landmark& landmark) const {
+  gather_sensitivity(landmark);
+  solver_->information_.solve_lower(solver_->sensitivities_, first_column(landmark, layout_));
+  return solver_->sensitivities_.leftCols(layout_.size());
+}
+
+PointMatrix ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
+  gather_sensitivity(landmark);
   return landmark.A().inverse() + solver_->head_covariance(first_column(landmark, layout_));
 }
 

@@ -85,6 +85,11 @@ std::optional<Calibration> Geolocator::calibration() const {
   return implementation_->tracker->calibration_of_camera();
 }
 
+std::optional<JointEstimate> Geolocator::joint_estimate() const {
+  if (!implementation_->state.local_frame()) return std::nullopt;
+  return implementation_->tracker->estimate(implementation_->projector.config().ground_height_above_home_m);
+}
+
 const std::vector<KnownPointMatch>& Geolocator::known_points() const {
   return implementation_->tracker->known_points();
 }

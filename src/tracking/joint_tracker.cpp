@@ -12,6 +12,7 @@
 #include "tracking/ground_prior.hpp"
 #include "tracking/head_bound.hpp"
 #include "tracking/identity.hpp"
+#include "tracking/joint_estimate.hpp"
 #include "tracking/known_places.hpp"
 #include "tracking/misses.hpp"
 #include "tracking/range_aid.hpp"
@@ -125,6 +126,11 @@ std::optional<Calibration> JointTracker::calibration_of_camera() const {
   if (camera.has_unknown_focal())
     camera.covariance(Index::kFocal, Index::kFocal) += std::pow(kSigmaOfFoundFocal, 2);
   return camera;
+}
+
+std::optional<JointEstimate> JointTracker::estimate(double ground_height_above_home_m) const {
+  return joint_estimate({solver_, errors_, heights_, tracks_, sleeping_, published_},
+                        ground_height_above_home_m);
 }
 
 void JointTracker::update(const LocatedFrame& located) {

@@ -51,6 +51,7 @@ class JointTracker final : public Tracker {
     return errors_.lift_m(reported_height_above_ground_m);
   }
   std::optional<Calibration> calibration_of_camera() const override;
+  std::optional<JointEstimate> estimate(double ground_height_above_home_m) const override;
   const std::vector<KnownPointMatch>& known_points() const override { return known_points_.matches(); }
 
  private:

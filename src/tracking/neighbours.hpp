@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace geoloc {
@@ -12,6 +13,8 @@ namespace geoloc {
 /// wears off. The dozen with the strongest evidence are kept.
 class Neighbours {
  public:
+  static constexpr std::size_t kMost = 12;
+
   void seen_apart(std::uint64_t other) { entry(other).evidence += 1.0; }
 
   /// One detection where both should have given one: weaker, since detectors miss.
@@ -24,6 +27,15 @@ class Neighbours {
 
   /// Two objects, as far as the frames tell: proven, or seen so once and not yet worn off.
   bool are_apart(std::uint64_t other) const { return evidence_against(other) > kDoubt; }
+
+  /// Those that are_apart() holds for; 0 stands for none.
+  std::array<std::uint64_t, kMost> apart() const {
+    std::array<std::uint64_t, kMost> others{};
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+      if (entries_[i].evidence > kDoubt) others[i] = entries_[i].other;
+    }
+    return others;
+  }
 
   /// `gone` is now known as `kept`.
   void rename(std::uint64_t gone, std::uint64_t kept) {
@@ -65,7 +77,7 @@ class Neighbours {
     return *weakest;
   }
 
-  std::array<Entry, 12> entries_{};
+  std::array<Entry, kMost> entries_{};
 };
 
 }  // namespace geoloc

@@ -5,12 +5,23 @@
 
 namespace geoloc {
 
+namespace {
+
+std::size_t place_of(std::uint64_t id, const std::vector<Track>& tracks) {
+  const auto is_before = [](const Track& track, std::uint64_t sought) { return track.id < sought; };
+  return static_cast<std::size_t>(std::lower_bound(tracks.begin(), tracks.end(), id, is_before) -
+                                  tracks.begin());
+}
+
+}  // namespace
+
 Track* PublishedTracks::find(std::uint64_t id, std::size_t& place) {
-  if (place >= tracks_.size() || tracks_[place].id != id) {
-    const auto is_before = [](const Track& track, std::uint64_t sought) { return track.id < sought; };
-    const auto found = std::lower_bound(tracks_.begin(), tracks_.end(), id, is_before);
-    place = static_cast<std::size_t>(found - tracks_.begin());
-  }
+  if (place >= tracks_.size() || tracks_[place].id != id) place = place_of(id, tracks_);
+  return place < tracks_.size() && tracks_[place].id == id ? &tracks_[place] : nullptr;
+}
+
+const Track* PublishedTracks::find(std::uint64_t id) const {
+  const std::size_t place = place_of(id, tracks_);
   return place < tracks_.size() && tracks_[place].id == id ? &tracks_[place] : nullptr;
 }
 

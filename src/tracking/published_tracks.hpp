@@ -20,6 +20,9 @@ class PublishedTracks {
   /// The track of that id. `place`: where it was last time, and where it is, so that it is found at once.
   Track* find(std::uint64_t id, std::size_t& place);
 
+  /// The track of that id; nullptr: there is none.
+  const Track* find(std::uint64_t id) const;
+
   /// Puts the track in the place of the one of its id, if there is one.
   void set(const Track& track, std::size_t& place);
 

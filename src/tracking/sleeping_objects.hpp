@@ -47,6 +47,19 @@ class SleepingObjects {
   /// Puts all but the track into `object`; refresh() is the caller's.
   void wake(Key key, DriftTimeline& drift, RestingObject& object);
 
+  /// Calls visit(id, landmark, neighbours) for each, as it would wake: its sums by the nodes of `drift`,
+  /// which is the one that it was put with.
+  template <typename Visit>
+  void for_each(DriftTimeline& drift, const Visit& visit) const {
+    Landmark landmark;
+    for (Key key = 0; key < sleepers_.end(); ++key) {
+      const Sleeper& sleeper = sleepers_[key];
+      if (sleeper.id == 0) continue;
+      restore(sleeper, drift, landmark);
+      visit(sleeper.id, landmark, sleeper.neighbours);
+    }
+  }
+
   /// Brings some of them up to date, in turn: so many, and as many more as all of them need to be visited
   /// before the drift forgets its nodes. Calls visit(id, published_at, position, landmark) for each, whose
   /// landmark has no C and no g.

@@ -9,6 +9,7 @@
 #include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/projection/ground_model.hpp"
 #include "geoloc/projection/projector.hpp"
+#include "geoloc/tracking/joint_estimate.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "geoloc/tracking/track.hpp"
 #include "projection/frame_viewer.hpp"
@@ -59,6 +60,13 @@ class Tracker {
   /// An estimate of the camera's errors alone: the autopilot's own are part of its sigma. nullopt where the
   /// method learns none.
   virtual std::optional<Calibration> calibration_of_camera() const = 0;
+
+  /// The objects at rest with what they are off by together; nullopt where the method does not know it. The
+  /// estimator is as if it had not been asked. `ground_height_above_home_m`: the projector's.
+  virtual std::optional<JointEstimate> estimate(double ground_height_above_home_m) const {
+    (void)ground_height_above_home_m;
+    return std::nullopt;
+  }
 
   /// In the order of the configuration; empty where the method uses none.
   virtual const std::vector<KnownPointMatch>& known_points() const = 0;

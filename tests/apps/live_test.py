@@ -33,7 +33,8 @@ class LiveIsItsReplay(LiveRun):
 
     def test_live_is_its_replay(self):
         recording, replayed = self.folder / "recording", self.folder / "replayed.geojson"
-        with self.world.watch("--record", recording, "--out", self.objects_file) as app:
+        live_summary, replayed_summary = self.folder / "live.fs", self.folder / "replayed.fs"
+        with self.world.watch("--record", recording, "--out", self.objects_file, "--summary", live_summary) as app:
             self.fly_over(app)
             self.assertEqual(app.interrupt(), 0, app.lines)
         objects = self.objects()
@@ -41,9 +42,10 @@ class LiveIsItsReplay(LiveRun):
         self.assertGreater(len(objects["features"]), 0)
         self.assertLess(counters["frames_unusable"], 0.25 * counters["frames"])
 
-        self.assertEqual(run("geoloc_replay", recording, "--out", replayed).status, 0)
+        again = run("geoloc_replay", recording, "--out", replayed, "--summary", replayed_summary)
+        self.assertEqual(again.status, 0, again.err)
         self.assertEqual(self.objects_file.read_bytes(), replayed.read_bytes())
-
+        self.assertEqual(live_summary.read_bytes(), replayed_summary.read_bytes())
 
     def test_a_camera_that_zooms_is_its_replay_too(self):
         recording, replayed = self.folder / "recording", self.folder / "replayed.geojson"

@@ -3,7 +3,7 @@ import json
 import re
 import unittest
 
-from support import AppTest, rmse_m, run
+from support import PROGRAMS, AppTest, rmse_m, run
 
 
 class Recordings(AppTest):
@@ -129,7 +129,7 @@ class Options(AppTest):
 
     def test_no_program_takes_a_negative_number_for_a_large_one(self):
         taken = []
-        for program in "geoloc_app", "geoloc_detect", "geoloc_replay", "geoloc_sim", "geoloc_eval", "geoloc_import":
+        for program in PROGRAMS:
             for option in re.findall(r"(--[a-z-]+)[^\n]*\bUINT\b", run(program, "--help").out):
                 taken.append(option)
                 self.assert_refused(run(program, option, -1), option)
@@ -158,7 +158,7 @@ class Options(AppTest):
             self.assert_refused(run(program, option, 1), f"{program}: there is no option {option}; did you mean {meant}?")
 
     def test_every_program_tells_its_version(self):
-        for program in "geoloc_app", "geoloc_detect", "geoloc_replay", "geoloc_sim", "geoloc_eval", "geoloc_import":
+        for program in PROGRAMS:
             result = run(program, "--version")
             self.assertEqual((result.status, result.err), (0, ""))
             self.assertRegex(result.out, rf"^{program} \d+\.\d+\.\d+\n$")

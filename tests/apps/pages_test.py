@@ -8,7 +8,7 @@ import unittest
 from support import BIN, AppTest, run
 
 SHARE = BIN.parent / "share"
-PROGRAMS = ("geoloc_app", "geoloc_detect", "geoloc_eval", "geoloc_import", "geoloc_replay", "geoloc_sim")
+PROGRAMS = ("geoloc_app", "geoloc_detect", "geoloc_eval", "geoloc_fuse", "geoloc_import", "geoloc_replay", "geoloc_sim")
 COMMANDS = {"geoloc_import": ("stills", "video")}
 
 

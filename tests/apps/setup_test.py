@@ -2,7 +2,7 @@
 import socket
 import unittest
 
-from support import AppTest, World, free_port, run
+from support import PROGRAMS, AppTest, World, free_port, run
 
 
 class UnusableInput(AppTest):
@@ -72,7 +72,7 @@ class UnusableInput(AppTest):
         self.assertFalse((self.folder / "recording").exists())
 
     def test_help_is_no_fault(self):
-        for program in "geoloc_app", "geoloc_detect", "geoloc_replay", "geoloc_sim", "geoloc_eval", "geoloc_import":
+        for program in PROGRAMS:
             with self.subTest(program):
                 result = run(program, "--help")
                 self.assertEqual((result.status, result.err), (0, ""))

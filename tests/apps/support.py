@@ -120,6 +120,9 @@ class Live:
         self._process.stderr.close()
 
 
+PROGRAMS = "geoloc_app", "geoloc_detect", "geoloc_replay", "geoloc_sim", "geoloc_eval", "geoloc_fuse", "geoloc_import"
+
+
 class AppTest(unittest.TestCase):
     """A test with a temporary folder of its own, `self.folder`."""
 

@@ -36,7 +36,7 @@ done
 
 say "apt-get install geoloc: the programs"
 install "$packages"/geoloc_*.deb
-for program in geoloc_app geoloc_detect geoloc_eval geoloc_import geoloc_replay geoloc_sim; do
+for program in geoloc_app geoloc_detect geoloc_eval geoloc_fuse geoloc_import geoloc_replay geoloc_sim; do
   [ "$(command -v "$program")" = "/usr/bin/$program" ] || fail "$program is not installed"
   "$program" --help >"$work/help.txt" || fail "$program --help"
   grep -q 'Usage: ' "$work/help.txt" || fail "$program has no help"

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "fuzz/require.hpp"
 #include "geoloc/io/config/calibration_file.hpp"
 #include "geoloc/io/config/geolocator_fields.hpp"
 #include "geoloc/io/config/known_points_file.hpp"
@@ -23,10 +23,6 @@
 // accepts must be usable. Violations abort. Shared by the fuzz programs and by the test that damages good
 // files.
 namespace geoloc::io::hostile {
-
-inline void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 inline bool is_usable(const Detection& detection) {
   const Box& box = detection.box;

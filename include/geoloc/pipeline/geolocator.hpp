@@ -15,6 +15,7 @@
 #include "geoloc/projection/ground_fix.hpp"
 #include "geoloc/state/samples.hpp"
 #include "geoloc/state/vehicle_state.hpp"
+#include "geoloc/tracking/joint_estimate.hpp"
 #include "geoloc/tracking/known_points.hpp"
 #include "geoloc/tracking/track.hpp"
 
@@ -107,6 +108,11 @@ class Geolocator {
 
   /// What was learnt of the constant errors; nullopt where the method learns none.
   std::optional<Calibration> calibration() const;
+
+  /// The confirmed objects at rest with what they are off by together, for fusion with other flights
+  /// (summarize()); nullopt where the method does not know it, and before the first frame. Costs a solution
+  /// and allocates; the estimator goes on as if it had not been asked.
+  std::optional<JointEstimate> joint_estimate() const;
 
   /// What became of the known points, in the order of the configuration; empty where the method uses none.
   const std::vector<KnownPointMatch>& known_points() const;

@@ -36,6 +36,17 @@ class ClassVotes {
     }
   }
 
+  struct Vote {
+    int class_id = 0;
+    double weight = 0.0;  ///< 0: there is no vote
+  };
+  using Votes = std::array<Vote, 4>;
+  const Votes& votes() const { return votes_; }
+
+  ClassVotes() = default;
+  /// As votes() told them.
+  explicit ClassVotes(const Votes& votes) : votes_(votes) {}
+
   /// The smaller class id where votes are equal; 0 before any vote.
   int winner() const {
     const Vote* best = &votes_[0];
@@ -48,11 +59,7 @@ class ClassVotes {
   }
 
  private:
-  struct Vote {
-    int class_id = 0;
-    double weight = 0.0;
-  };
-  std::array<Vote, 4> votes_{};
+  Votes votes_{};
 };
 
 }  // namespace geoloc

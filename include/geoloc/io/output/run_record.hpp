@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geoloc/fleet/flight_summary.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/io/output/estimator_report.hpp"
@@ -31,6 +32,8 @@ struct RunRecord {
   std::vector<RawFix> raw_fixes;
   std::vector<TrajectoryPoint> trajectory;
   std::vector<Eigen::Vector2d> targets;  ///< true positions [m], where they are known
+  /// For fusion with other flights: where it is asked for, and known.
+  std::optional<FlightSummary> flight_summary;
 };
 
 }  // namespace geoloc::io

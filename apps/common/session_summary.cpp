@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "common/session_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "geoloc/io/output/object_report.hpp"
+#include "geoloc/state/state_provider.hpp"
+
+namespace geoloc::apps {
+namespace {
+
+/// By MAVLink's number; 0 where there is none.
+int system_of(const Session& session) {
+  const auto vehicle = session.link().status(session.history().trajectory().back().at).vehicle;
+  return vehicle ? vehicle->system : 0;
+}
+
+std::string name_of_flight(const Session& session) {
+  const Geodetic& origin = session.geolocator().local_frame()->origin();
+  return fmt::format("{}_{:.6f}_{:.6f}_{}", io::iso8601(session.history().trajectory().front().at),
+                     origin.latitude_deg, origin.longitude_deg, system_of(session));
+}
+
+}  // namespace
+
+std::optional<FlightSummary> summarize_session(const Session& session, const std::string& flight_id) {
+  const Geolocator& geolocator = session.geolocator();
+  if (session.history().trajectory().empty()) return std::nullopt;
+  const auto estimate = geolocator.joint_estimate();
+  if (!estimate) return std::nullopt;
+  FlightIdentity identity;
+  identity.flight = flight_id.empty() ? name_of_flight(session) : flight_id;
+  identity.vehicle = fmt::format("system-{}", system_of(session));
+  identity.sequence = session.frames();
+  return summarize(*estimate, std::move(identity), geolocator.local_frame()->origin(),
+                   geolocator.state().home_height_msl_m());
+}
+
+}  // namespace geoloc::apps

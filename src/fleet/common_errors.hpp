@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "fleet/flight_model.hpp"
+#include "fleet/map_solver.hpp"
+
+namespace geoloc {
+
+/// What a flight is off by in common, as all flights together show it.
+struct CommonError {
+  Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();  ///< reported minus estimated: east, north, up
+  Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();
+  /// Of the horizontal part against what the other flights say, 2 degrees of freedom; 0 where they say
+  /// nothing. The sum over objects would hide it.
+  double chi2 = 0.0;
+  std::size_t other_flights = 0;  ///< that share objects with it
+  std::size_t shared_objects = 0;
+};
+
+std::vector<CommonError> common_errors(const std::vector<FlightModel>& flights,
+                                       const std::vector<Members>& objects, const MapEstimate& estimate);
+
+}  // namespace geoloc

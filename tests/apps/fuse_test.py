@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: Apache-2.0
+import json
+import unittest
+
+from support import AppTest, run
+
+FLIGHTS = ("gnss_path1", "gnss_path2", "gnss_path3")
+
+
+class Fleets(AppTest):
+    """Several flights over the same targets, from recordings to one map."""
+
+    def summary(self, flight, name, *options):
+        """The file of a flight's summary."""
+        recording, file = self.folder / flight, self.folder / name
+        flown = run("geoloc_sim", "--record", recording, "--flight", flight, "--scenario", "2")
+        self.assertEqual(flown.status, 0, flown.err)
+        replayed = run("geoloc_replay", recording, "--summary", file, "--out", self.folder / "objects.geojson", *options)
+        self.assertEqual(replayed.status, 0, replayed.err)
+        return file
+
+    def fuse(self, *arguments):
+        fused = run("geoloc_fuse", *arguments)
+        self.assertEqual(fused.status, 0, fused.err)
+        return fused
+
+    def test_flights_become_one_map(self):
+        files = [self.summary(flight, f"{flight}.json", "--flight-id", flight) for flight in FLIGHTS]
+        out, again = self.folder / "map.geojson", self.folder / "again.geojson"
+        told = self.fuse(*files, "--out", out, "--truth", self.folder / FLIGHTS[0] / "truth.geojson").err
+        self.assertIn("found 30 / 30", told)
+        self.assertIn("extra 0, merged pairs 0", told)
+        document = json.loads(out.read_text())
+        self.assertEqual([flight["flight"] for flight in document["flights"]], list(FLIGHTS))
+        self.assertEqual({flight["verdict"] for flight in document["flights"]}, {"fused"})
+        self.assertEqual(len(document["features"]), 30)
+        self.fuse(*reversed(files), *files, "--out", again)
+        self.assertEqual(again.read_bytes(), out.read_bytes())
+
+        moved = json.loads(files[1].read_text())
+        for thing in moved["objects"]:
+            thing["position_in_enu_m"][1] += 6.0
+        files[1].write_text(json.dumps(moved))
+        told = self.fuse(*files, "--out", out).err
+        self.assertRegex(told, r"gnss_path2 +quarantined")
+        self.assertRegex(told, r"its objects lie -?\d\.\d m east and [3-8]\.\d m north of where the rest of the fleet")
+
+    def test_both_forms_of_a_summary_say_the_same(self):
+        outs = []
+        for name in ("one.fs", "one.json"):
+            file = self.summary(FLIGHTS[0], name)
+            self.fuse(file, "--out", self.folder / f"{name}.geojson")
+            outs.append((self.folder / f"{name}.geojson").read_bytes())
+            (self.folder / FLIGHTS[0]).rename(self.folder / f"{name}.recording")
+        self.assertEqual(*outs)
+
+    def test_what_cannot_be_fused_is_refused_with_the_reason(self):
+        text = self.write("notes.txt", "no summary")
+        missing = self.folder / "missing.fs"
+        refused = run("geoloc_fuse", text, missing, "--out", self.folder / "map.geojson")
+        self.assert_refused(refused, f"{text}: is not a flight summary", f"{missing}: cannot be opened")
+        self.assertFalse((self.folder / "map.geojson").exists())
+
+    def test_an_input_is_not_written_over(self):
+        text = self.write("one.fs", "no summary")
+        self.assert_refused(run("geoloc_fuse", text, "--out", text), "is an input of this run")
+
+    def test_the_paper_method_has_no_summary(self):
+        recording = self.make_recording("short")
+        refused = run("geoloc_replay", recording, "--method", "paper", "--summary", self.folder / "a.fs")
+        self.assert_refused(refused, "--summary", "use --method joint")
+
+    def test_a_flight_id_is_a_plain_name(self):
+        recording = self.make_recording("short")
+        refused = run("geoloc_replay", recording, "--summary", self.folder / "a.fs", "--flight-id", "my flight")
+        self.assert_refused(refused, "--flight-id my flight", "letters, digits")
+
+
+if __name__ == "__main__":
+    unittest.main()
