@@ -5,10 +5,9 @@ import shutil
 import subprocess
 import unittest
 
-from support import BIN, AppTest, run
+from support import BIN, PROGRAMS, AppTest, run
 
 SHARE = BIN.parent / "share"
-PROGRAMS = ("geoloc_app", "geoloc_detect", "geoloc_eval", "geoloc_fuse", "geoloc_import", "geoloc_replay", "geoloc_sim")
 COMMANDS = {"geoloc_import": ("stills", "video")}
 
 
