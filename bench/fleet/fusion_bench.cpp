@@ -23,8 +23,10 @@ std::vector<Eigen::Vector3d> targets(int count, std::mt19937& random) {
   std::uniform_real_distribution<double> off(-3.0, 3.0);
   const int side = static_cast<int>(std::ceil(std::sqrt(count)));
   std::vector<Eigen::Vector3d> places;
-  for (int i = 0; i < count; ++i)
-    places.emplace_back(kSpacing_m * (i % side) + off(random), kSpacing_m * (i / side) + off(random), 0.0);
+  for (int i = 0; i < count; ++i) {
+    const int row = i / side, column = i % side;
+    places.emplace_back(kSpacing_m * column + off(random), kSpacing_m * row + off(random), 0.0);
+  }
   return places;
 }
 

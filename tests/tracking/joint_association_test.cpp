@@ -287,7 +287,8 @@ TEST_F(JointFrameOfTwoLooks, PairsBeyondTheGateAreDropped) {
   EXPECT_EQ(association.looks_at(0), 1);
 }
 
-const double kLookAlone = -2.0 * std::log(2.0 * kPi / 100.0);  ///< where one object stands on 100 m^2
+constexpr double kUsualDensity = 0.01;                                 ///< of something new [1/m^2]
+const double kLookAlone = -2.0 * std::log(2.0 * kPi * kUsualDensity);  ///< where one object stands on 100 m^2
 /// By as much more may leaving a look alone cost, so that it may as well be of something new.
 constexpr double kDoubt = 2.0;
 
@@ -303,7 +304,8 @@ class LoneLook {
     return squared_distance + std::log(covariance_.determinant()) + pairing_.penalty;
   }
 
-  /// The look is so far off, in that direction. However the answer is asked for, it is the same.
+  /// The look is so far off, in that direction. A thorough answer is the same where something new is as much
+  /// rarer as a plain one holds it for: there, leaving a look alone is an explanation like any other.
   JointAssociation::Match match_at(double squared_distance, const Eigen::Vector2d& direction) {
     pairing_.residual =
         direction * std::sqrt(squared_distance / direction.dot(covariance_.inverse() * direction));
@@ -311,6 +313,7 @@ class LoneLook {
     association.begin(1, kGate, kAmbiguity);
     association.add(pairing_);
     const JointAssociation::Match match = association.solve()[0];
+    association.expect_new(0, kUsualDensity * std::exp(-0.5 * (kAmbiguity - kDoubt)));
     const JointAssociation::Match same = association.solve_thoroughly()[0];
     EXPECT_EQ(match.track, same.track);
     EXPECT_EQ(match.is_ambiguous, same.is_ambiguous);
