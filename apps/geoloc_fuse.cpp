@@ -45,7 +45,7 @@ void add_options(CLI::App& program, Options& options) {
       .add_option("--class-names", options.class_names,
                   "Names of the classes from 0, with commas between [their numbers]")
       ->delimiter(',')
-      ->type_name("NAME,…");
+      ->type_name("NAME,...");
   const auto add = [&program](const char* name, double& value, const char* help) {
     program.add_option(name, value, help)->capture_default_str()->group("Fusion");
   };

@@ -8,7 +8,8 @@ EXIT_STATUS = (("0", "Done. Ctrl-C ends a run, too, with all results written."),
 
 
 def escaped(text):
-    return text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq").replace("~", "\\(ti").replace("^", "\\(ha")
+    text = text.replace("\\", "\\e").replace("-", "\\-").replace("'", "\\(aq").replace("~", "\\(ti").replace("^", "\\(ha")
+    return "".join(c if c.isascii() else f"\\[u{ord(c):04X}]" for c in text)
 
 
 def protected(line):
