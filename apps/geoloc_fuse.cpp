@@ -12,6 +12,7 @@
 #include "common/objects_table.hpp"
 #include "common/output_options.hpp"
 #include "common/outputs.hpp"
+#include "common/run_score.hpp"
 #include "geoloc/evaluation/score.hpp"
 #include "geoloc/fleet/fusion.hpp"
 #include "geoloc/io/fleet/fused_report.hpp"
@@ -109,10 +110,8 @@ std::string score_of(const std::vector<io::ObjectReport>& objects,
     gaussians.push_back({object.position_in_enu, object.covariance_in_enu});
   }
   const Score score = score_objects(places, targets);
-  return fmt::format(
-      "found {} / {}, RMSE {:.3f} m (relative {:.3f} m), extra {}, merged pairs {}, NEES {:.2f} (2 is right)",
-      score.found, score.targets, score.rmse_m.value_or(0.0), score.relative_rmse_m.value_or(0.0),
-      score.extra, score.merged_pairs, mean_nees(gaussians, targets, score.target_of_object));
+  return words_of(score) +
+         fmt::format(", NEES {:.2f} (2 is right)", mean_nees(gaussians, targets, score.target_of_object));
 }
 
 /// The map, ready to be written.

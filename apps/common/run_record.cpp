@@ -48,10 +48,6 @@ std::string count_of_damaged(const Session& session) {
   return fmt::format("{} more frames were damaged on their way and left out", session.frames_damaged());
 }
 
-std::string metres(const std::optional<double>& length_m) {
-  return length_m ? fmt::format("{:.3f} m", *length_m) : "–";
-}
-
 /// Why the score may not be that of the run; empty where it is.
 std::string doubts(const Score& score, const LeftOut& told) {
   std::string lines;
@@ -119,11 +115,8 @@ std::string summarize_run(const Session& session, const std::vector<io::TrueTarg
   }
   const auto [scored, told] = without_known_points(session, truth);
   const Score score = score_run(session, scored, told);
-  return fmt::format(
-             "found {} / {}, RMSE {} (relative {}), extra {}, merged pairs {}, {} frames ({} without vehicle "
-             "state)",
-             score.found, score.targets, metres(score.rmse_m), metres(score.relative_rmse_m), score.extra,
-             score.merged_pairs, frames, session.frames_unusable()) +
+  return words_of(score) +
+         fmt::format(", {} frames ({} without vehicle state)", frames, session.frames_unusable()) +
          doubts(score, told) + also;
 }
 

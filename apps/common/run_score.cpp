@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "common/run_score.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <optional>
 
 namespace geoloc::apps {
 namespace {
@@ -15,7 +18,17 @@ std::vector<const Track*> confirmed(const Session& session, const LeftOut& left_
   return objects;
 }
 
+std::string metres(const std::optional<double>& length_m) {
+  return length_m ? fmt::format("{:.3f} m", *length_m) : "–";
+}
+
 }  // namespace
+
+std::string words_of(const Score& score) {
+  return fmt::format("found {} / {}, RMSE {} (relative {}), extra {}, merged pairs {}", score.found,
+                     score.targets, metres(score.rmse_m), metres(score.relative_rmse_m), score.extra,
+                     score.merged_pairs);
+}
 
 std::vector<Eigen::Vector2d> targets_in_enu(const std::vector<io::TrueTarget>& truth,
                                             const Geolocator& geolocator) {

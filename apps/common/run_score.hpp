@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "common/session.hpp"
@@ -29,6 +30,9 @@ ScoredTruth without_known_points(const Session& session, const std::vector<io::T
 /// The run against the true targets.
 Score score_run(const Session& session, const std::vector<io::TrueTarget>& truth,
                 const LeftOut& left_out = {});
+
+/// The score for a person; lengths of nothing found are dashes.
+std::string words_of(const Score& score);
 
 /// Mean NEES of the objects that `score` matched (score.hpp); 2 where the stated covariances are right.
 double mean_nees_of_run(const Session& session, const std::vector<io::TrueTarget>& truth, const Score& score,
