@@ -11,7 +11,7 @@
 namespace geoloc::apps {
 namespace {
 
-/// By MAVLink's number; 0 where there is none.
+/// The vehicle's number in MAVLink; 0 where there is none.
 int system_of(const Session& session) {
   const auto vehicle = session.link().status(session.history().trajectory().back().at).vehicle;
   return vehicle ? vehicle->system : 0;

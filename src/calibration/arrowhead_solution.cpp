@@ -94,7 +94,7 @@ PointMatrix ArrowheadSolver::head_covariance(Eigen::Index first) {
   return used.lazyProduct(used.transpose());
 }
 
-/// Of an object's position, its height above the reported home.
+/// The sensitivity of an object's position to the head, its height that above the reported home.
 void ArrowheadSolver::Solution::gather_sensitivity(const Landmark& landmark) const {
   solver_->sensitivities_.leftCols(layout_.size()).setZero();
   solver_->add_sensitivity(landmark, layout_, 1.0);

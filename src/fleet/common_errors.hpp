@@ -14,7 +14,7 @@ namespace geoloc {
 struct CommonError {
   Eigen::Vector3d mean_m = Eigen::Vector3d::Zero();  ///< reported minus estimated: east, north, up
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();
-  /// Of the horizontal part against what the other flights say, 2 degrees of freedom; 0 where they say
+  /// Chi-square of the horizontal part against what the other flights say, 2 degrees of freedom; 0: they say
   /// nothing. The sum over objects would hide it.
   double chi2 = 0.0;
   std::size_t other_flights = 0;  ///< that share objects with it

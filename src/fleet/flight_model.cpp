@@ -4,14 +4,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "geometry/symmetric.hpp"
+
 namespace geoloc {
-namespace {
-
-Eigen::Matrix3d symmetric(const Eigen::Matrix3d& matrix) {
-  return 0.5 * (matrix + matrix.transpose());
-}
-
-}  // namespace
 
 FlightModel model_of(const FlightSummary& summary, Eigen::Index most_shared, double sigma_home_m) {
   const Eigen::Index kept = std::min(summary.shared_count(), most_shared);

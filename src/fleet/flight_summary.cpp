@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "fleet/named_faults.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace geoloc {
 namespace {
@@ -127,8 +128,7 @@ FlightSummary transformed_to(const LocalFrame& frame, const FlightSummary& summa
     FlightSummary::Object& object = moved.objects[i];
     object.position_in_enu.head<2>() =
         frame.to_local(old_frame.to_geodetic(object.position_in_enu.head<2>())).position_in_enu;
-    const Eigen::Matrix3d turned = turn * object.own_covariance * turn.transpose();
-    object.own_covariance = 0.5 * (turned + turned.transpose());
+    object.own_covariance = symmetric(turn * object.own_covariance * turn.transpose());
     auto rows = moved.shared_error.middleRows<3>(3 * static_cast<Eigen::Index>(i));
     rows = (turn * rows).eval();
   }

@@ -12,13 +12,14 @@
 #include "fleet/map_merges.hpp"
 #include "fleet/map_solver.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace geoloc {
 namespace {
 
 /// Times that neighbours on the map are compared.
 constexpr int kMergeRounds = 3;
-/// Of each flight at least east and north are estimated.
+/// East and north of each flight are estimated at least.
 constexpr Eigen::Index kLeastShared = 2;
 
 /// Flights in the fleet's frame, and which of FusedMap::flights each is.
@@ -42,7 +43,7 @@ FusedFlight begin_flight(const FlightSummary& summary) {
   return flight;
 }
 
-/// Of the first flight that knows it.
+/// Home's height above mean sea level by the first flight that knows it.
 std::optional<double> home_of(const Fleet& fleet) {
   for (const auto& [id, summary] : fleet) {
     if (summary.home_height_msl_m) return summary.home_height_msl_m;
@@ -127,9 +128,7 @@ void take_out(std::size_t flight, std::vector<Members>& objects) {
       if (member.flight > flight) --member.flight;
     }
   }
-  objects.erase(
-      std::remove_if(objects.begin(), objects.end(), [](const Members& members) { return members.empty(); }),
-      objects.end());
+  drop_empty(objects);
 }
 
 std::string disagreement(const CommonError& error, const char* with) {
@@ -176,7 +175,7 @@ FusedObject fused_object(std::uint64_t id, const Members& members, const MapEsti
   FusedObject fused;
   fused.id = id;
   fused.position_in_enu = place.position;
-  fused.covariance = 0.5 * (place.covariance + place.covariance.transpose());
+  fused.covariance = symmetric(place.covariance);
   double absent = 1.0;
   for (const Contribution& member : members) {
     const FlightSummary::Object& object = input.summaries[member.flight].objects[member.object];

@@ -77,9 +77,7 @@ bool merge_neighbours(const std::vector<const FlightSummary*>& summaries,
     objects[key].clear();
     has_merged = true;
   }
-  objects.erase(
-      std::remove_if(objects.begin(), objects.end(), [](const Members& members) { return members.empty(); }),
-      objects.end());
+  drop_empty(objects);
   return has_merged;
 }
 

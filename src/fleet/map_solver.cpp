@@ -7,6 +7,7 @@
 
 #include "fleet/flight_groups.hpp"
 #include "fleet/lower_inverse.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace geoloc {
 namespace {
@@ -30,7 +31,7 @@ Mean mean_of(const std::vector<FlightModel>& flights, const Members& members) {
     vector += object.own_information * (object.position - origin);
   }
   const Eigen::Matrix3d covariance = information.inverse();
-  return {0.5 * (covariance + covariance.transpose()), origin + covariance * vector};
+  return {symmetric(covariance), origin + covariance * vector};
 }
 
 /// The shared errors of one group of flights: S s = h, with S = sum of (I + G' W G) - (W G)' D^-1 (W G).
@@ -200,13 +201,13 @@ class GroupSystem {
   Eigen::Index batched_ = 0;
 };
 
-/// Of an object that one flight alone has.
+/// The place of an object that one flight alone has.
 MapEstimate::Place place_by(const FlightModel& flight, std::size_t object,
                             const MapEstimate::Shared& shared) {
   const auto rows = flight.shared_of(object);
   const Eigen::Matrix3d covariance =
       flight.objects[object].own_covariance + rows * shared.covariance * rows.transpose();
-  return {flight.objects[object].position + rows * shared.mean, 0.5 * (covariance + covariance.transpose())};
+  return {flight.objects[object].position + rows * shared.mean, symmetric(covariance)};
 }
 
 }  // namespace

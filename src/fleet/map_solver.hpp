@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -12,6 +13,13 @@ namespace geoloc {
 
 /// Which objects of the flights are one, as the fleet's map has it. In order of the flights.
 using Members = std::vector<Contribution>;
+
+/// Takes out those that no flight has any more.
+inline void drop_empty(std::vector<Members>& objects) {
+  objects.erase(
+      std::remove_if(objects.begin(), objects.end(), [](const Members& members) { return members.empty(); }),
+      objects.end());
+}
 
 /// What the flights tell together: means and covariances.
 struct MapEstimate {

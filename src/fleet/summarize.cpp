@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geoloc/fleet/flight_summary.hpp"
+#include "geometry/symmetric.hpp"
 
 namespace geoloc {
 namespace {
@@ -51,8 +52,7 @@ void drop_after(Eigen::Index kept, FlightSummary& summary) {
   const Eigen::Index dropped = summary.shared_count() - kept;
   for (std::size_t i = 0; i < summary.objects.size(); ++i) {
     const Eigen::Matrix<double, 3, Eigen::Dynamic> rows = summary.shared_error_of(i).rightCols(dropped);
-    const Eigen::Matrix3d more = rows * rows.transpose();
-    summary.objects[i].own_covariance += 0.5 * (more + more.transpose());
+    summary.objects[i].own_covariance += symmetric(rows * rows.transpose());
   }
   summary.shared_error = summary.shared_error.leftCols(kept).eval();
 }

@@ -21,7 +21,7 @@ bool can_be_taken_out(const DecisiveLook& look, const DriftTimeline& drift) {
   return look.observation.span.first >= drift.begin_of_fine();
 }
 
-/// Of a look's residual by itself and by what the shared errors make of look and object.
+/// Covariance of a look's residual: its own noise, and what the shared errors make of look and object.
 Eigen::Matrix2d residual_covariance(const LandmarkObservation& observation, const Eigen::Matrix2d& noise,
                                     const PointMatrix& own, const RestingObject& object,
                                     const SharedErrorEstimate& errors) {

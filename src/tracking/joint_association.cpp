@@ -140,7 +140,7 @@ void JointAssociation::assign(const Posterior& posterior, const Held& held,
   }
 }
 
-void JointAssociation::explain(Starts starts, const Pairing* start, const Held& held) {
+void JointAssociation::explain(const Pairing* start, const Held& held) {
   if (hypothesis_count_ == hypotheses_.size()) return;
   Hypothesis& hypothesis = hypotheses_[hypothesis_count_++];
   Posterior posterior;
@@ -157,8 +157,7 @@ void JointAssociation::explain(Starts starts, const Pairing* start, const Held& 
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
     if (hypothesis.pairing_of_look[look] == kNone) hypothesis.cost += cost_alone_of_look_[look];
   }
-  if (starts == Starts::kAmbiguousLooks && held.look_left_alone != kNone)
-    hypothesis.cost += ambiguity_ - kAmbiguityAlone;
+  hypothesis.cost += held.cost;
 }
 
 /// Starts from each pair that no explanation so far holds, where its look has a choice; or from every one.
@@ -170,13 +169,17 @@ void JointAssociation::try_other_explanations(Starts starts) {
       return hypothesis.pairing_of_look[look] == p;
     });
     if (starts == Starts::kEveryPairing) {
-      explain(starts, &pairings_[p], {kNone, &pairings_[p]});
+      explain(&pairings_[p], {kNone, &pairings_[p]});
     } else if (pairings_of_look_[look] > 1 && !is_held) {
-      explain(starts, &pairings_[p], {});
+      explain(&pairings_[p], {});
     }
   }
   for (std::size_t look = 0; look < pairings_of_look_.size(); ++look) {
-    if (starts == Starts::kEveryPairing || is_doubtful(look)) explain(starts, nullptr, {look, nullptr});
+    if (starts == Starts::kEveryPairing) {
+      explain(nullptr, {look});
+    } else if (is_doubtful(look)) {
+      explain(nullptr, {look, nullptr, ambiguity_ - kAmbiguityAlone});
+    }
   }
 }
 
@@ -230,7 +233,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
     for (const Pairing& pairing : pairings_) matches_[pairing.look] = match_of(pairing);
     return matches_;
   }
-  explain(Starts::kAmbiguousLooks, nullptr, {});
+  explain(nullptr, {});
   try_other_explanations(Starts::kAmbiguousLooks);
   report_best();
   return matches_;
@@ -238,7 +241,7 @@ const std::vector<JointAssociation::Match>& JointAssociation::solve() {
 
 const std::vector<JointAssociation::Match>& JointAssociation::solve_thoroughly() {
   matches_.assign(pairings_of_look_.size(), Match{});
-  explain(Starts::kEveryPairing, nullptr, {});
+  explain(nullptr, {});
   try_other_explanations(Starts::kEveryPairing);
   report_best();
   return matches_;

@@ -102,6 +102,7 @@ class JointAssociation {
   struct Held {
     std::size_t look_left_alone = kNone;
     const Pairing* pairing = nullptr;
+    double cost = 0.0;  ///< of holding that
 
     bool excludes(const Pairing& other) const {
       return other.look == look_left_alone ||
@@ -109,7 +110,7 @@ class JointAssociation {
     }
   };
 
-  void explain(Starts starts, const Pairing* start, const Held& held);
+  void explain(const Pairing* start, const Held& held);
   void assign(const Posterior& posterior, const Held& held, std::vector<std::size_t>& pairing_of_look);
   void try_other_explanations(Starts starts);
   void report_best();

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "geometry/symmetric.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -40,12 +42,11 @@ std::vector<const Landmark*> landmarks_of(const TrackTable& awake) {
 }
 
 JointEstimate::Object object_of(const Found& found, const SharedErrorEstimate& errors, double level_m,
-                                const PointMatrix& covariance) {
+                                const PointMatrix& own, const PointMatrix& covariance) {
   JointEstimate::Object object;
-  const PointMatrix own = found.landmark.A().inverse();
   object.position_in_enu = own * found.landmark.weighted_position(errors.calibration.mean, errors.drift);
   object.position_in_enu.z() += level_m;
-  object.own_covariance = 0.5 * (own + own.transpose());
+  object.own_covariance = symmetric(own);
   object.track = found.track;
   object.track.position_in_enu = {object.position_in_enu.head<2>(), covariance.topLeftCorner<2, 2>()};
   object.track.height = HeightEstimate{object.position_in_enu.z(), std::sqrt(covariance(2, 2))};
@@ -84,8 +85,9 @@ std::optional<JointEstimate> joint_estimate(const JointState& state, double grou
   for (std::size_t i = 0; i < found.size(); ++i) {
     auto shared = estimate.shared_error.middleRows<kPointSize>(static_cast<Eigen::Index>(kPointSize * i));
     shared = solution->shared_error(found[i].landmark);
-    const PointMatrix covariance = found[i].landmark.A().inverse() + shared * shared.transpose();
-    estimate.objects.push_back(object_of(found[i], errors, level_m, covariance));
+    const PointMatrix own = found[i].landmark.A().inverse();
+    const PointMatrix covariance = own + shared * shared.transpose();
+    estimate.objects.push_back(object_of(found[i], errors, level_m, own, covariance));
   }
   list_apart(found, estimate);
   return estimate;

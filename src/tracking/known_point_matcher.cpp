@@ -22,6 +22,7 @@ constexpr double kGone = 3e-3;
 constexpr double kAround_m = 5.0, kLeastDensity = 0.01;
 /// One for each object that it may be, and that it is none; bounded, since each takes an assignment.
 constexpr std::size_t kExplanationsPerPoint = 17, kMostExplanations = 200;
+/// As many solutions in turn say the same before a point is matched.
 constexpr int kSolutionsToProve = 3;
 /// In 250 points one may be taken for another's object that stands where its own was not seen
 /// (2 ln 250).
@@ -95,7 +96,7 @@ bool KnownPointMatcher::is_proven(Entry& entry, std::uint64_t track_id) {
   return ++entry.likely_for >= kSolutionsToProve;
 }
 
-/// By one solution.
+/// What one solution says of a point.
 KnownPointStatus KnownPointMatcher::status_of(const JointAssociation::Match& match,
                                               const Candidate* candidate, double gate) const {
   if (match.is_ambiguous || (candidate != nullptr && !candidate->is_confirmed))
@@ -104,7 +105,7 @@ KnownPointStatus KnownPointMatcher::status_of(const JointAssociation::Match& mat
   return agrees ? KnownPointStatus::kMatched : KnownPointStatus::kNoObject;
 }
 
-/// Of a match by itself, whatever the other points say of the shared error.
+/// The match's squared distance by itself, whatever the other points say of the shared error.
 double KnownPointMatcher::distance_squared(const JointAssociation::Match& match) const {
   const JointAssociation::Match alone = association_.match_of(association_.pairings()[match.pairing]);
   return mahalanobis_squared(alone.innovation, alone.innovation_covariance);

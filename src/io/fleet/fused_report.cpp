@@ -33,18 +33,12 @@ const char* word_of_verdict(FlightVerdict verdict) {
 }
 
 ordered_json feature_of(const FusedMap& map, const FusedObject& fused, const ObjectReport& object) {
-  ordered_json coordinates{decimals(object.position.longitude_deg, 9),
-                           decimals(object.position.latitude_deg, 9)};
-  if (std::isfinite(object.height.ellipsoid_m.value_or(NAN)))
-    coordinates.push_back(decimals(*object.height.ellipsoid_m, 3));
-  ordered_json properties = properties_to_json(object);
   auto flights = ordered_json::array();
   for (const Contribution& contribution : fused.contributions)
     flights.push_back(map.flights[contribution.flight].identity.flight);
-  properties["flights"] = std::move(flights);
-  return {{"type", "Feature"},
-          {"geometry", {{"type", "Point"}, {"coordinates", coordinates}}},
-          {"properties", properties}};
+  ordered_json feature = feature_to_json(object);
+  feature["properties"]["flights"] = std::move(flights);
+  return feature;
 }
 
 ordered_json three(const Eigen::Vector3d& vector) {

@@ -137,7 +137,8 @@ FlightSummary read_document(const json& document, const std::string& name) {
   const json& objects = member(document, "objects");
   const json& apart = member(document, "apart");
   if (!objects.is_array() || !apart.is_array()) throw std::runtime_error("objects and apart must be lists");
-  refuse_absurd_sizes(name, objects.size(), shared_count(objects), apart.size());
+  const std::size_t shared = shared_count(objects);
+  refuse_absurd_sizes(name, objects.size(), shared, apart.size());
 
   FlightSummary summary;
   summary.identity = {text(member(document, "flight"), "flight"),
@@ -149,7 +150,7 @@ FlightSummary read_document(const json& document, const std::string& name) {
   if (const json& home = member(document, "home_height_msl_m"); !home.is_null())
     summary.home_height_msl_m = number(home, "home_height_msl_m");
   summary.shared_error.resize(3 * static_cast<Eigen::Index>(objects.size()),
-                              static_cast<Eigen::Index>(shared_count(objects)));
+                              static_cast<Eigen::Index>(shared));
   for (std::size_t i = 0; i < objects.size(); ++i) {
     try {
       summary.objects.push_back(read_object(objects[i], i, summary));

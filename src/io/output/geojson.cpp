@@ -1,25 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/output/geojson.hpp"
 
-#include <cmath>
-
-#include "geoloc/io/output/decimals.hpp"
 #include "json_report.hpp"
 
 namespace geoloc::io {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json to_feature(const ObjectReport& object) {
-  ordered_json coordinates{decimals(object.position.longitude_deg, 9),
-                           decimals(object.position.latitude_deg, 9)};
-  if (std::isfinite(object.height.ellipsoid_m.value_or(NAN)))
-    coordinates.push_back(decimals(*object.height.ellipsoid_m, 3));
-  return {{"type", "Feature"},
-          {"geometry", {{"type", "Point"}, {"coordinates", coordinates}}},
-          {"properties", properties_to_json(object)}};
-}
 
 const char* name_of(KnownPointStatus status) {
   switch (status) {
@@ -50,7 +37,7 @@ ordered_json known_points_to_json(const std::vector<KnownPointReport>& reports) 
 std::string objects_to_geojson(const std::vector<ObjectReport>& objects, const EstimatorReport& estimator) {
   auto features = ordered_json::array();
   for (const ObjectReport& object : objects) {
-    if (has_place(object)) features.push_back(to_feature(object));
+    if (has_place(object)) features.push_back(feature_to_json(object));
   }
   ordered_json collection{{"type", "FeatureCollection"},
                           {"method", estimator.calibration ? "joint" : "paper"},

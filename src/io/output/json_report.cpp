@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "json_report.hpp"
 
+#include <cmath>
+
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/io/output/decimals.hpp"
 
@@ -31,6 +33,16 @@ ordered_json properties_to_json(const ObjectReport& object) {
   if (!object.note.name.empty()) properties["operator_name"] = object.note.name;
   if (object.note.verdict != Verdict::kNone) properties["operator_verdict"] = word_of(object.note.verdict);
   return properties;
+}
+
+ordered_json feature_to_json(const ObjectReport& object) {
+  ordered_json coordinates{decimals(object.position.longitude_deg, 9),
+                           decimals(object.position.latitude_deg, 9)};
+  if (std::isfinite(object.height.ellipsoid_m.value_or(NAN)))
+    coordinates.push_back(decimals(*object.height.ellipsoid_m, 3));
+  return {{"type", "Feature"},
+          {"geometry", {{"type", "Point"}, {"coordinates", coordinates}}},
+          {"properties", properties_to_json(object)}};
 }
 
 ordered_json counters_to_json(const RunCounters& counters) {

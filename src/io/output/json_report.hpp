@@ -13,6 +13,9 @@ namespace geoloc::io {
 /// The properties of docs/formats.md.
 nlohmann::ordered_json properties_to_json(const ObjectReport& object);
 
+/// The object as a GeoJSON feature with these properties. It must have a place (has_place()).
+nlohmann::ordered_json feature_to_json(const ObjectReport& object);
+
 nlohmann::ordered_json counters_to_json(const RunCounters& counters);
 
 /// null for a method that estimates none.

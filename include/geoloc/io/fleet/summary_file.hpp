@@ -16,7 +16,7 @@ namespace geoloc::io {
 
 inline constexpr std::uint32_t kSummaryVersion = 1;
 
-/// Of a file of summaries, or of one in a message.
+/// The largest summary that is read, from a file or a message.
 inline constexpr std::size_t kMostSummaryBytes = std::size_t{256} << 20;
 
 std::string summary_to_bytes(const FlightSummary& summary);
