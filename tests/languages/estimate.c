@@ -114,7 +114,7 @@ static void read_frame(FILE* feed, geoloc_geolocator* geolocator) {
 
 static void process(geoloc_geolocator* geolocator, geoloc_wait wait) {
   geoloc_outcome outcome;
-  while (geoloc_process_next(geolocator, wait, &outcome) == GEOLOC_OK) {
+  while (geoloc_process_next(geolocator, (int32_t)wait, &outcome) == GEOLOC_OK) {
     printf("F %" PRId64 " %" PRId32 "\n", outcome.captured_at_ns, outcome.fate);
   }
 }
