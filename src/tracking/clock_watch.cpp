@@ -20,6 +20,10 @@ constexpr double kIndependent_s = 0.5;
 /// 141 (ln 141 = 5), with as much to spare; by what it must lead the others, and what is not worth holding
 /// frames for.
 constexpr double kLeastGain = 10.0, kLeastLead = 6.0, kNoGain = 5.0;
+/// Attitudes that are off by a degree for seconds look like another latency to pairs of frames: where known
+/// places do not agree, pairs must tell twice as much; where places tell it, pairs may speak against it by no
+/// more than that.
+constexpr double kLeastAgreement = 1.0, kLeastGainByPairsAlone = 20.0, kMostAgainst = 2.0;
 /// Frames, and their span, before any is judged.
 constexpr std::size_t kLeastFrames = 10;
 constexpr double kLeastSpan_s = 1.0;
@@ -199,8 +203,9 @@ bool ClockWatch::is_told(const Score& found, const Score& believed, double laten
                          const PlaceFit& fit) const {
   const double per_frame = weight(found.frames) / static_cast<double>(found.frames);
   const double gain_by_pairs = per_frame * (found.by_pairs - believed.by_pairs);
-  if (gain_by_pairs >= kLeastGain) return true;
-  if (gain_by_pairs <= -kLeastLead || per_frame * found.by_places < kLeastGain) return false;
+  const double by_places = per_frame * found.by_places;
+  if (gain_by_pairs >= (by_places >= kLeastAgreement ? kLeastGain : kLeastGainByPairsAlone)) return true;
+  if (gain_by_pairs <= -kMostAgainst || by_places < kLeastGain) return false;
   PlaceFit::SeenPlaces seen;
   for (std::size_t i = 0; i < found.frames; ++i)
     fit.tally(held_[i], latency_s, LatencyScores::kStep_s, places_, nullptr, &seen);

@@ -127,6 +127,15 @@ class Hills(AppTest):
             self.assertEqual((point["found"], point["extra"]), (point["targets"], 0), point["value"])
             self.assertLessEqual(point["mean_rmse_m"], TOLERANCE * 0.048, point["value"])
 
+    def test_attitudes_that_are_off_for_seconds_are_not_taken_for_another_latency(self):
+        result = run("geoloc_eval", "--flights", "none", "--method", "joint", "--seeds", 2, "--sweep", "attitude-slow",
+                     "--report", self.folder)
+        self.assertEqual(result.status, 0, result.err)
+        (sweep,) = json.loads((self.folder / "report.json").read_text())["sweeps"]
+        for point in sweep["points"]:
+            with self.subTest(sigma_deg=point["value"]):
+                self.assertGreaterEqual(point["found"], 179)
+                self.assertEqual(point["extra"], 0)
 
     def test_jumps_of_the_vehicles_state(self):
         result = run("geoloc_eval", "--flights", "none", "--seeds", 0, "--sweep", "jumps", "--report", self.folder)
