@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "mav_numbers.hpp"
 
@@ -30,9 +31,17 @@ Duration pause_after(int attempts) {
 }  // namespace
 
 void StreamRequests::want(const std::vector<WantedStream>& streams, HostTime now) {
-  streams_.clear();
-  for (const WantedStream& wanted : streams) streams_.push_back({wanted, {}, {}, 0, Answer::kNone});
+  std::vector<Stream> wanted_now;
+  for (const WantedStream& wanted : streams)
+    wanted_now.push_back({wanted, {}, {}, 0, Answer::kNone, was_wanted_more(wanted)});
+  streams_ = std::move(wanted_now);
   restart(now);
+}
+
+bool StreamRequests::was_wanted_more(const WantedStream& wanted) const {
+  return std::any_of(streams_.begin(), streams_.end(), [&](const Stream& before) {
+    return before.wanted.message_id == wanted.message_id && before.wanted.rate_hz > wanted.rate_hz;
+  });
 }
 
 void StreamRequests::restart(HostTime now) {
@@ -55,6 +64,7 @@ void StreamRequests::on_answer(std::uint8_t result, HostTime received_at) {
   if (!open_ || result == kInProgress) return;
   Stream& stream = streams_[*open_];
   open_.reset();
+  stream.is_to_slow_down = false;
   if (result == kAccepted) {
     stream.answer = Answer::kGranted;
     stream.next_look = std::max(stream.next_look, received_at + kTimeToTakeEffect);
@@ -75,7 +85,8 @@ std::optional<StreamRequest> StreamRequests::next(HostTime now) {
   open_.reset();
   for (Stream& stream : streams_) {
     if (now < stream.next_look) continue;
-    if (stream.meter.rate_hz(now) < kEnough * stream.wanted.rate_hz) return ask(stream, now);
+    if (stream.is_to_slow_down || stream.meter.rate_hz(now) < kEnough * stream.wanted.rate_hz)
+      return ask(stream, now);
     stream.attempts = 0;
     stream.next_look = now + kFirstLook;
   }

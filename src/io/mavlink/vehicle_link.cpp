@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/mavlink/vehicle_link.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <variant>
 #include <vector>
@@ -18,6 +19,17 @@ using namespace std::chrono_literals;
 constexpr Duration kEulerSilence = 1s;
 /// For this long after a DISTANCE_SENSOR, RANGEFINDER adds nothing new.
 constexpr Duration kRangeSilence = 2s;
+
+/// Share of the fast rate at which it counts as come: autopilots round intervals to their scheduler.
+constexpr double kNearlyFast = 0.6;
+
+/// With the rates of a link that bears the fast one.
+MavlinkConfig in_a_hurry(MavlinkConfig config) {
+  for (double* rate_hz : {&config.attitude_rate_hz, &config.position_rate_hz, &config.gimbal_rate_hz}) {
+    if (*rate_hz > 0.0) *rate_hz = std::max(*rate_hz, config.fast_rate_hz);
+  }
+  return config;
+}
 
 std::vector<WantedStream> wanted_streams(const MavlinkConfig& config, bool is_ardupilot, bool has_gimbal) {
   constexpr std::uint32_t kSystemTime = 2, kGpsRawInt = 24, kAttitude = 30, kGlobalPositionInt = 33;
@@ -120,7 +132,8 @@ void VehicleLink::begin_with_vehicle(const Arrival& arrival) {
   camera_.restart();
   last_heard_ = arrival.at;
   sender_.seek_clock();
-  requests_.want(wanted_streams(config_, choice_.is_ardupilot(), has_gimbal_), arrival.at);
+  pace_.restart();
+  want_streams(arrival.at);
   if (has_delivered_) arrival.sink.on_other_vehicle();
   has_delivered_ = false;
 }
@@ -231,8 +244,9 @@ void VehicleLink::handle(const Timesync& message, const Arrival& arrival) {
     return;
   }
   const std::uint64_t steps_before = clock_.counts().steps;
-  clock_.add_round_trip(HostTime{Duration{message.requester_ns - mark}},
-                        VehicleTime{Duration{message.vehicle_ns}}, arrival.at);
+  const HostTime asked_at{Duration{message.requester_ns - mark}};
+  clock_.add_round_trip(asked_at, VehicleTime{Duration{message.vehicle_ns}}, arrival.at);
+  pace_.on_round_trip(arrival.at - asked_at);
   tell_of_clock_step(steps_before, arrival);
 }
 
@@ -248,11 +262,25 @@ void VehicleLink::poll(HostTime now, const Send& send) {
   const LinkSender::Peers peers{self(), *choice_.vehicle(), is_v2_ || choice_.is_px4()};
   sender_.send_heartbeat(now, peers, send);
   if (!is_alive(now)) return;
+  if (config_.fast_rate_hz > 0.0 && pace_.update(now, heard(now))) want_streams(now);
   sender_.send_due(now, peers, clock_.doubt() > Duration::zero(), requests_, camera_, send);
 }
 
+void VehicleLink::want_streams(HostTime now) {
+  const MavlinkConfig config = pace_.is_fast() ? in_a_hurry(config_) : config_;
+  requests_.want(wanted_streams(config, choice_.is_ardupilot(), has_gimbal_), now);
+}
+
+LinkPace::Heard VehicleLink::heard(HostTime now) const {
+  const double least_hz = kNearlyFast * config_.fast_rate_hz;
+  return {counts_.vehicle_frames, parser_.sequences().lost(*choice_.vehicle()),
+          attitude_meter_.rate_hz(now) >= least_hz && position_meter_.rate_hz(now) >= least_hz};
+}
+
 void VehicleLink::ask_anew(HostTime now) {
-  requests_.restart(now);
+  const bool was_fast = pace_.is_fast();
+  pace_.restart();
+  was_fast ? want_streams(now) : requests_.restart(now);
   camera_.ask_anew(now);
   sender_.seek_clock();
 }

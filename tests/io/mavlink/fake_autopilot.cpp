@@ -133,13 +133,14 @@ std::vector<FakeAutopilot::Heard> FakeAutopilot::requests_for(std::uint32_t mess
 
 void Session::run(Duration duration) {
   for (const HostTime end = now + duration; now < end; now += std::chrono::milliseconds{10}) {
-    for (const Bytes& frame : to_autopilot_) autopilot.receive(frame.data(), frame.size(), now);
-    to_autopilot_.clear();
+    for (; to_autopilot_.size() >= static_cast<std::size_t>(delay); to_autopilot_.pop_front()) {
+      for (const Bytes& frame : to_autopilot_.front()) autopilot.receive(frame.data(), frame.size(), now);
+    }
+    std::vector<Bytes>& sent = to_autopilot_.emplace_back();
     const Bytes said = autopilot.transmit(now);
     link.consume(now, said.data(), said.size(), sink);
-    link.poll(now, [&](const std::uint8_t* frame, std::size_t size) {
-      to_autopilot_.emplace_back(frame, frame + size);
-    });
+    link.poll(now,
+              [&](const std::uint8_t* frame, std::size_t size) { sent.emplace_back(frame, frame + size); });
   }
 }
 

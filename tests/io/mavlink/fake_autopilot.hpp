@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <vector>
@@ -68,12 +69,20 @@ class FakeAutopilot {
   Bytes answers_;
 };
 
-/// A link and an autopilot in steps of 10 ms of simulated time: a frame arrives one step after it was sent.
+/// The rates are those that the configuration tells, on any link.
+inline MavlinkConfig with_steady_rates() {
+  MavlinkConfig config;
+  config.fast_rate_hz = 0.0;
+  return config;
+}
+
+/// A link and an autopilot in steps of 10 ms of simulated time: what the link sends arrives `delay` steps
+/// later, what the autopilot sends at once.
 class Session {
  public:
   static constexpr HostTime kStart{std::chrono::seconds{1'795'300'000}};
 
-  explicit Session(const MavlinkConfig& config = {})
+  explicit Session(const MavlinkConfig& config = with_steady_rates())
       : link(config), autopilot(kStart - std::chrono::seconds{100}) {}
 
   void run(Duration duration);
@@ -82,9 +91,10 @@ class Session {
   VehicleLink link;
   FakeAutopilot autopilot;
   CollectingSink sink;
+  int delay = 1;
 
  private:
-  std::vector<Bytes> to_autopilot_;
+  std::deque<std::vector<Bytes>> to_autopilot_;  // of the last steps
 };
 
 }  // namespace geoloc::io::testing

@@ -38,7 +38,7 @@ TEST(VehicleSession, IsAnOnboardComputerOfTheVehicle) {
 }
 
 TEST(VehicleSession, GetsTheRatesItAsksFor) {
-  MavlinkConfig config;
+  MavlinkConfig config = testing::with_steady_rates();
   config.attitude_rate_hz = 25.0;
   Session session(config);
   session.run(10s);
@@ -51,6 +51,39 @@ TEST(VehicleSession, GetsTheRatesItAsksFor) {
   EXPECT_TRUE(session.autopilot.requests_for(kEstimatorStatus).empty());
   EXPECT_TRUE(session.autopilot.heard_of(kRequestDataStream).empty());
   EXPECT_EQ(session.link.status(session.now).fix_type, 3);
+}
+
+TEST(VehicleSession, AsksForMoreWhereTheLinkBearsIt) {
+  Session session(MavlinkConfig{});
+  session.run(4s);
+  EXPECT_NEAR(session.link.status(session.now).attitude_rate_hz, 10.0, 0.7);
+  session.run(12s);
+  EXPECT_NEAR(session.link.status(session.now).attitude_rate_hz, 50.0, 1.0);
+  EXPECT_NEAR(session.link.status(session.now).position_rate_hz, 50.0, 1.0);
+  EXPECT_EQ(session.autopilot.requests_for(kAttitude).size(), 2U);
+  EXPECT_EQ(session.autopilot.requests_for(kSystemTime).size(), 1U) << "what is not of the state stays";
+}
+
+TEST(VehicleSession, AsksForLessAgainWhereTheLinkDoesNotBearIt) {
+  Session session(MavlinkConfig{});
+  session.run(16s);
+  session.delay = 8;  // in each direction of a link whose buffers have filled
+  session.run(12s);
+  EXPECT_NEAR(session.link.status(session.now).attitude_rate_hz, 10.0, 0.7);
+  EXPECT_NEAR(session.link.status(session.now).position_rate_hz, 10.0, 0.7);
+  EXPECT_EQ(session.autopilot.requests_for(kAttitude).back().wanted_rate_hz, 10.0);
+  session.run(20s);
+  EXPECT_EQ(session.autopilot.requests_for(kAttitude).size(), 3U);
+}
+
+TEST(VehicleSession, AsksForMoreAgainAfterAReboot) {
+  Session session(MavlinkConfig{});
+  session.run(16s);
+  session.autopilot.reboot(session.now - 10s);
+  session.run(4s);
+  EXPECT_GE(session.link.status(session.now).attitude_rate_hz, 9.3);
+  session.run(16s);
+  EXPECT_NEAR(session.link.status(session.now).attitude_rate_hz, 50.0, 1.0);
 }
 
 TEST(VehicleSession, AsksOtherAutopilotsForTheirOwnEstimatorStatus) {
@@ -200,7 +233,7 @@ TEST(VehicleSession, BringsAPx4ToSpeakMavlink2) {
 }
 
 TEST(VehicleSession, ReplayOfItsRecordedFramesGivesTheSameSamplesAndTheSameClock) {
-  Session session;
+  Session session(MavlinkConfig{});
   session.run(10s);
   session.autopilot.reboot(session.now - 20s);
   session.run(10s);

@@ -12,6 +12,8 @@ struct MavlinkConfig {
   int component_id = 191;  ///< our own, in the vehicle's system; 191 is that of an onboard computer
   double attitude_rate_hz = 10.0;
   double position_rate_hz = 10.0;
+  double fast_rate_hz =
+      50.0;  ///< of attitude, position and gimbal where the link bears it (LinkPace); 0: never
   double rangefinder_rate_hz = 0.0;  ///< 0: what comes is used, but not requested
   double gimbal_rate_hz = 10.0;      ///< of a camera that is on one; 0: what comes is used, but not requested
   int gimbal = 0;                    ///< GimbalDevice::number(); 0: the first one heard

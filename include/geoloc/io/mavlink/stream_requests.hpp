@@ -35,7 +35,8 @@ class StreamRequests {
     std::uint64_t denials = 0;
   };
 
-  /// Wants these streams from now on, after observing for one second what arrives unrequested.
+  /// Wants these streams from now on, after observing for one second what arrives unrequested. One that was
+  /// wanted more often is asked for once in any case, so that it comes as seldom as it is wanted now.
   void want(const std::vector<WantedStream>& streams, HostTime now);
 
   /// The vehicle rebooted or was out of reach: everything observed before is void.
@@ -60,8 +61,10 @@ class StreamRequests {
     HostTime next_look;
     int attempts = 0;  ///< in a row, without the wanted rate
     Answer answer = Answer::kNone;
+    bool is_to_slow_down = false;  ///< it was wanted more often, and has not been answered since
   };
 
+  bool was_wanted_more(const WantedStream& wanted) const;
   static StreamRequest::Method method_for(const Stream& stream);
   StreamRequest ask(Stream& stream, HostTime now);
 

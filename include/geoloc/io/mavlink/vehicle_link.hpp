@@ -11,6 +11,7 @@
 #include "geoloc/io/mavlink/clock_mapping.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/mavlink/gimbal_receiver.hpp"
+#include "geoloc/io/mavlink/link_pace.hpp"
 #include "geoloc/io/mavlink/link_sender.hpp"
 #include "geoloc/io/mavlink/link_status.hpp"
 #include "geoloc/io/mavlink/mavlink_config.hpp"
@@ -90,6 +91,8 @@ class VehicleLink {
   void take_field_of_view(std::uint8_t component, const FieldOfViewMessage& message, const Arrival& arrival);
 
   void ask_anew(HostTime now);
+  void want_streams(HostTime now);
+  LinkPace::Heard heard(HostTime now) const;
   MavAddress self() const;
   bool is_for_us(MavAddress target) const;
   bool is_of_vehicle(MavAddress sender) const;
@@ -117,6 +120,7 @@ class VehicleLink {
   TelemetryCounts counts_;
 
   // What poll() sends. None of it may reach what consume() delivers.
+  LinkPace pace_;
   StreamRequests requests_;
   LinkSender sender_;
 };
