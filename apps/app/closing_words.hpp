@@ -18,8 +18,8 @@ struct VideoEnd {
   LiveRun::Stats run;
 };
 
-/// Lines on frames that were left out, and on a detector that found nothing in any. `confidence`: its
-/// threshold.
+/// Lines on frames that were left out, on a detector that found nothing in any, and on how long objects took.
+/// `confidence`: the detector's threshold.
 std::vector<std::string> closing_words(const VideoEnd& video, const io::DetectorCounts& detector,
                                        double confidence);
 

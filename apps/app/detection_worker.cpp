@@ -60,9 +60,14 @@ void DetectionWorker::detect(const io::VideoFrame& frame) {
   }
   if (!fits_calibration(frame.bgr)) return;
   const HostTime started = clock_.now();
-  DetectedFrame result{frame.captured_at, frame.received_at, frame.time_quality, detector_.detect(frame.bgr),
-                       frame.telemetry};
-  const double took_ms = 1e3 * seconds(clock_.now() - started);
+  DetectedFrame result;
+  result.captured_at = frame.captured_at;
+  result.received_at = frame.received_at;
+  result.time_quality = frame.time_quality;
+  result.detections = detector_.detect(frame.bgr);
+  result.searched_at = clock_.now();
+  result.telemetry = frame.telemetry;
+  const double took_ms = 1e3 * seconds(result.searched_at - started);
   if (on_detected_) on_detected_(frame, result.detections);
 
   const std::lock_guard lock(mutex_);

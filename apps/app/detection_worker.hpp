@@ -22,6 +22,7 @@ namespace geoloc::apps {
 struct DetectedFrame {
   HostTime captured_at;
   HostTime received_at;
+  HostTime searched_at{};  ///< when the detector was done
   io::TimeQuality time_quality = io::TimeQuality::kArrival;
   std::vector<Detection> detections;
   std::optional<io::FrameTelemetry> telemetry;  ///< where the frame carries any

@@ -85,10 +85,19 @@ void LiveRun::process(const WaitingFrame& waiting) {
                        waiting.time_sigma_s, io::to_string(frame.time_quality)});
   const PendingFrame pending{frame.captured_at, frame.detections, waiting.time_sigma_s};
   const bool is_located = session_.process(pending);
-  if (is_located) stats_.latency_s.add(seconds(clock_.now() - frame.captured_at));
+  if (is_located) note_delays(frame);
   stats_.time_quality = frame.time_quality;
   if (is_located) reports_.on_frame(session_, frame.captured_at);
   on_frame_(pending, is_located);
+}
+
+void LiveRun::note_delays(const DetectedFrame& frame) {
+  const HostTime now = clock_.now();
+  stats_.latency_s.add(seconds(now - frame.captured_at));
+  stats_.delays.to_arrival.add(frame.received_at - frame.captured_at);
+  stats_.delays.in_search.add(frame.searched_at - frame.received_at);
+  stats_.delays.in_wait.add(now - frame.searched_at);
+  stats_.delays.total.add(now - frame.captured_at);
 }
 
 }  // namespace geoloc::apps

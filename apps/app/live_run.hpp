@@ -6,6 +6,7 @@
 #include <deque>
 #include <functional>
 
+#include "app/delay_quantiles.hpp"
 #include "app/detection_worker.hpp"
 #include "app/recorder.hpp"
 #include "app/running_mean.hpp"
@@ -25,7 +26,8 @@ class LiveRun {
         0;  ///< frames captured before one that was processed already, or in the future
     std::uint64_t overflowed = 0;  ///< frames that waited while too many others came
     std::uint64_t untold = 0;      ///< frames without telemetry, where that is the video's
-    RunningMean latency_s;         ///< from capture to result
+    RunningMean latency_s;         ///< from capture to result, of late
+    FrameDelays delays;            ///< of frames that were located
     io::TimeQuality time_quality = io::TimeQuality::kArrival;  ///< of the last frame
   };
 
@@ -56,6 +58,7 @@ class LiveRun {
   void wait_for_state(DetectedFrame frame);
   void process_ready();
   void process(const WaitingFrame& frame);
+  void note_delays(const DetectedFrame& frame);
 
   Session& session_;
   TelemetryInput& telemetry_;
