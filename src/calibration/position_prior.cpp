@@ -3,23 +3,31 @@
 
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace geoloc {
 
 PositionPrior::PositionPrior(Eigen::Index max_nodes) : mean_(Eigen::VectorXd::Zero(max_nodes)) {
-  for (Matrix* const matrix : {&root_, &whitening_, &information_}) matrix->setZero(max_nodes, max_nodes);
+  for (Matrix* const matrix : {&covariance_, &root_, &whitening_, &information_})
+    matrix->setZero(max_nodes, max_nodes);
 }
 
 void PositionPrior::form(const DriftTimeline& drift, int component) {
-  size_ = drift.size();
-  set_covariance(drift, component);
-  invert();
+  const bool has_grown = std::exchange(size_, drift.size()) != drift.size();
+  const bool has_changed = set_covariance(drift, component);
+  if (has_grown || has_changed) invert();
 }
 
-/// A process' covariance with a later node is its variance here, times the transitions until then.
-void PositionPrior::set_covariance(const DriftTimeline& drift, int component) {
+/// A process' covariance with a later node is its variance here, times the transitions until then. False
+/// where it is as before.
+bool PositionPrior::set_covariance(const DriftTimeline& drift, int component) {
   const auto node = [&](Eigen::Index i) -> const DriftNode& {
     return drift.node(drift.begin() + static_cast<std::uint32_t>(i));
+  };
+  bool has_changed = false;
+  const auto set = [&](double& element, double value) {
+    has_changed = has_changed || element != value;
+    element = value;
   };
   double mean = 0.0, wandering = 0.0, ripple = 0.0;  // of the node before; variances
   for (Eigen::Index i = 0; i < size_; ++i) {
@@ -29,21 +37,22 @@ void PositionPrior::set_covariance(const DriftTimeline& drift, int component) {
     wandering = kept * kept * wandering + 1.0 / drift.information(number)[component];
     ripple = kept_ripple * kept_ripple * ripple + drift.ripple_variance(number);
     mean_[i] = mean;
-    root_(i, i) = wandering + ripple;
+    set(covariance_(i, i), wandering + ripple);
     double of_wandering = wandering, of_ripple = ripple;
     for (Eigen::Index j = i + 1; j < size_; ++j) {
       of_wandering *= node(j).transition[component];
       of_ripple *= node(j).ripple_transition;
-      root_(j, i) = of_wandering + of_ripple;
+      set(covariance_(j, i), of_wandering + of_ripple);
     }
   }
+  return has_changed;
 }
 
 void PositionPrior::invert() {
   for (Eigen::Index i = 0; i < size_; ++i) {
     for (Eigen::Index j = 0; j < i; ++j)
-      root_(i, j) = (root_(i, j) - root_.row(i).head(j).dot(root_.row(j).head(j))) / root_(j, j);
-    root_(i, i) = std::sqrt(root_(i, i) - root_.row(i).head(i).squaredNorm());
+      root_(i, j) = (covariance_(i, j) - root_.row(i).head(j).dot(root_.row(j).head(j))) / root_(j, j);
+    root_(i, i) = std::sqrt(covariance_(i, i) - root_.row(i).head(i).squaredNorm());
     auto row = whitening_.row(i).head(size_);
     row.setZero();
     for (Eigen::Index j = 0; j < i; ++j) row.head(j + 1) -= root_(i, j) * whitening_.row(j).head(j + 1);

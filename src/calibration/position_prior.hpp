@@ -16,7 +16,9 @@ class PositionPrior {
 
   explicit PositionPrior(Eigen::Index max_nodes);
 
-  /// Forms the prior of component 0 (east) or 1 (north), for the nodes that are estimated.
+  /// Forms the prior of component 0 (east) or 1 (north), for the nodes that are estimated. What was formed
+  /// last is kept where the covariance is the same, as it mostly is for both components and from one solution
+  /// to the next.
   void form(const DriftTimeline& drift, int component);
 
   Eigen::Index size() const { return size_; }
@@ -30,12 +32,13 @@ class PositionPrior {
   double whitening(Eigen::Index row, Eigen::Index column) const { return whitening_(row, column); }
 
  private:
-  void set_covariance(const DriftTimeline& drift, int component);
+  bool set_covariance(const DriftTimeline& drift, int component);
   void invert();
 
   Eigen::Index size_ = 0;
   Eigen::VectorXd mean_;
-  Matrix root_;  // lower triangle of the covariance, then L
+  Matrix covariance_;  // the lower triangle
+  Matrix root_;        // L
   Matrix whitening_;
   Matrix information_;
 };

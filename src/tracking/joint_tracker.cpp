@@ -26,9 +26,9 @@ using Index = CalibrationIndex;
 /// A known point that is nearer to the image's edge is not covered; share of the image's height.
 constexpr double kCoverMargin = 0.1;
 /// Sleeping objects that are brought up to date with each frame.
-constexpr std::size_t kSleepersPerFrame = 16;
+constexpr std::size_t kSleepersPerFrame = 8;
 /// Covariances that are brought up to date with each solution, but for those of objects in view.
-constexpr std::size_t kCovariancesPerSolution = 64;
+constexpr std::size_t kCovariancesPerSolution = 48;
 
 JointTrackerConfig checked(const JointTrackerConfig& config) {
   throw_if_any(config.problems());
