@@ -9,7 +9,7 @@
 namespace geoloc::apps {
 
 Outputs::Outputs(std::vector<std::string> class_names, const io::SinkRunnerConfig& config)
-    : class_names_(std::move(class_names)), config_(config), geoid_(open_geoid()) {}
+    : reporter_(std::move(class_names)), config_(config), geoid_(open_geoid()) {}
 
 void Outputs::add(std::unique_ptr<io::Sink> sink) {
   const bool wants_frames = sink->wants_frames();
@@ -29,7 +29,7 @@ void Outputs::complete(std::vector<io::ObjectReport>& objects) const {
 void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool is_located) {
   if (streams_.empty()) return;
   const auto report = std::make_shared<io::OutputFrame>(
-      io::report_frame(session.geolocator(), is_located, frame.captured_at, frame.detections, class_names_));
+      reporter_.report(session.geolocator(), is_located, frame.captured_at, frame.detections));
   report->number = session.frames() - 1;
   for (std::size_t i = 0; i < report->fixes.size(); ++i) report->fixes[i].look = session.looks()[i];
   complete(report->objects);

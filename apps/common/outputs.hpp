@@ -9,6 +9,7 @@
 #include "common/session.hpp"
 #include "geoloc/io/output/geoid.hpp"
 #include "geoloc/io/output/note_book.hpp"
+#include "geoloc/io/output/output_frame.hpp"
 #include "geoloc/io/output/sink_runner.hpp"
 
 namespace geoloc::apps {
@@ -50,7 +51,7 @@ class Outputs {
   std::vector<std::string> take_messages() { return messages_->take(); }
 
  private:
-  std::vector<std::string> class_names_;
+  io::FrameReporter reporter_;
   io::SinkRunnerConfig config_;
   io::Geoid geoid_;
   std::shared_ptr<io::NoteBook> notes_ = std::make_shared<io::NoteBook>();

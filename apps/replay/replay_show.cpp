@@ -17,7 +17,11 @@ constexpr std::chrono::seconds kRecordPeriod{5};
 
 ReplayShow::ReplayShow(const ShowSource& source, Outputs& outputs, io::LivePage* page,
                        io::ReplayControl& playback)
-    : source_(source), outputs_(outputs), page_(page), playback_(playback) {
+    : source_(source),
+      outputs_(outputs),
+      page_(page),
+      playback_(playback),
+      reporter_(source.recording.class_names) {
   begin_anew();
 }
 
@@ -99,8 +103,8 @@ bool ReplayShow::goes_on(HostTime at, const StopSignal& stop) {
 }
 
 void ReplayShow::show(const PendingFrame& frame, bool is_located) {
-  io::OutputFrame report = io::report_frame(session_->geolocator(), is_located, frame.captured_at,
-                                            frame.detections, source_.recording.class_names);
+  io::OutputFrame report =
+      reporter_.report(session_->geolocator(), is_located, frame.captured_at, frame.detections);
   outputs_.complete(report.objects);
   page_->add(report);
   page_->show_playback(playback_.json(frame.captured_at, is_seeking(frame.captured_at)));

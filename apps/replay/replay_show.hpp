@@ -56,6 +56,7 @@ class ReplayShow {
   Outputs& outputs_;
   io::LivePage* page_;
   io::ReplayControl& playback_;
+  io::FrameReporter reporter_;
   std::optional<Session> session_;
   ReplayPace pace_;
   std::size_t posted_ = 0;           // frames that the outputs have

@@ -11,6 +11,8 @@
 namespace geoloc::io {
 namespace {
 
+/// Events after a frame: receivers and radios take a few hundred a second.
+constexpr std::size_t kMostAtOnce = 30;
 constexpr auto kPatienceAtTheEnd = std::chrono::milliseconds{2000};
 constexpr auto kFarewell = std::chrono::milliseconds{1000};
 
@@ -32,11 +34,11 @@ CotSink::CotSink(std::string target, const CotConfig& config, const CotConnectio
 void CotSink::on_frame(const OutputFrame& frame) {
   if (run_.empty()) run_ = whole_seconds(frame.captured_at);
   objects_ = frame.objects;
-  send_due();
+  send_due(kMostAtOnce);
 }
 
 void CotSink::on_status(const LiveStatus& /*status*/) {
-  send_due();
+  send_due(kMostAtOnce);
 }
 
 void CotSink::on_run(const RunRecord& run) {
@@ -46,7 +48,7 @@ void CotSink::on_run(const RunRecord& run) {
 void CotSink::on_end() {
   if ((objects_.empty() && told_.empty()) || !connection_.flush(kPatienceAtTheEnd)) return;
   tell_all_again();
-  send_due();
+  send_due(objects_.size());
   if (connection_.flush(kPatienceAtTheEnd)) connection_.end(kFarewell);
 }
 
@@ -55,22 +57,49 @@ void CotSink::tell_all_again() {
   for (auto& [id, told] : told_) told.at.reset();
 }
 
-void CotSink::send_due() {
-  const auto now = CotConnection::Clock::now();
+/// Those that nobody was told of come first.
+void CotSink::send_due(std::size_t most) {
+  const auto now = Clock::now();
   connection_.poll(now);
   if (std::exchange(connections_, connection_.counts().connections) != connections_) tell_all_again();
-  for (const ObjectReport& object : objects_) {
+  const auto is_new = [](const std::optional<Clock::time_point>& told) { return !told; };
+  const auto is_due = [&](const std::optional<Clock::time_point>& told) {
+    return !told || now - *told >= from_seconds(config_.period_s);
+  };
+  const std::size_t left = send_those(is_new, 0, now, most);
+  send_those(is_due, next_due_, now, left);
+  send_gone();
+}
+
+/// Sends so many at most of those whose last time `is_wanted`, from the object of that id on, all around.
+/// Returns how many more may be sent.
+template <typename IsWanted>
+std::size_t CotSink::send_those(const IsWanted& is_wanted, std::uint64_t from, Clock::time_point now,
+                                std::size_t most) {
+  const auto is_before = [](const ObjectReport& object, std::uint64_t id) { return object.id < id; };
+  const auto first = static_cast<std::size_t>(
+      std::lower_bound(objects_.begin(), objects_.end(), from, is_before) - objects_.begin());
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    const ObjectReport& object = objects_[(first + i) % objects_.size()];
     const auto told = told_.find(object.id);
-    const bool is_due =
-        told == told_.end() || !told->second.at || now - *told->second.at >= from_seconds(config_.period_s);
-    if (!is_due || !has_place(object)) continue;
-    if (!connection_.is_ready()) return;
+    if (!is_wanted(told == told_.end() ? std::nullopt : told->second.at) || !has_place(object)) continue;
+    if (most == 0 || !connection_.is_ready()) {
+      next_due_ = object.id;
+      return 0;
+    }
     send(object, false);
     told_[object.id] = {object, now};
+    --most;
   }
+  return most;
+}
+
+/// Both are in order of their ids.
+void CotSink::send_gone() {
+  auto object = objects_.begin();
   for (auto told = told_.begin(); told != told_.end();) {
-    const bool is_there = std::any_of(objects_.begin(), objects_.end(),
-                                      [&](const ObjectReport& object) { return object.id == told->first; });
+    while (object != objects_.end() && object->id < told->first) ++object;
+    const bool is_there = object != objects_.end() && object->id == told->first;
     if (!is_there && !connection_.is_ready()) return;
     if (!is_there) send(told->second.object, true);
     told = is_there ? std::next(told) : told_.erase(told);

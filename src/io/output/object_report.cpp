@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <utility>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/projection/ground_model.hpp"
@@ -13,6 +14,41 @@
 #include "geoloc/state/state_provider.hpp"
 
 namespace geoloc::io {
+namespace {
+
+/// Whether the report tells where the track is now.
+bool tells(const ObjectReport& report, const Track& track) {
+  return report.position_in_enu == track.position_in_enu.mean &&
+         report.covariance_in_enu == track.position_in_enu.covariance;
+}
+
+/// What takes time to tell.
+ObjectReport place_of(const Track& track, const LocalFrame& frame) {
+  ObjectReport report;
+  report.id = track.id;
+  report.position_in_enu = track.position_in_enu.mean;
+  report.position = frame.to_geodetic(report.position_in_enu);
+  report.covariance_in_enu = track.position_in_enu.covariance;
+  report.ellipse = error_ellipse(track.position_in_enu.covariance);
+  return report;
+}
+
+/// All else.
+void describe(const Track& track, const Geolocator& geolocator, const std::vector<std::string>& class_names,
+              ObjectReport& report) {
+  const int class_id = track.class_id();
+  if (report.class_name.empty() || class_id != report.class_id)
+    report.class_name = class_name_of(class_id, class_names);
+  report.class_id = class_id;
+  report.confidence = track.confidence();
+  report.hits = track.hits;
+  report.first_seen = track.first_seen;
+  report.last_seen = track.last_seen;
+  report.height = height_of(track, geolocator);
+  if (track.velocity_in_enu) report.course = course_of(track.velocity_in_enu->mean);
+}
+
+}  // namespace
 
 ErrorEllipse error_ellipse(const Eigen::Matrix2d& covariance) {
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
@@ -44,25 +80,28 @@ HeightReport height_of(const Track& track, const Geolocator& geolocator) {
 std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
                                          const std::vector<std::string>& class_names, TrackStatus status) {
   std::vector<ObjectReport> reports;
+  update_reports(geolocator, class_names, status, reports);
+  return reports;
+}
+
+/// Both lists are in order of their ids.
+void update_reports(const Geolocator& geolocator, const std::vector<std::string>& class_names,
+                    TrackStatus status, std::vector<ObjectReport>& reports) {
+  std::vector<ObjectReport> updated;
+  updated.reserve(reports.size());
+  auto before = reports.begin();
   for (const Track& track : geolocator.tracks()) {
     if (track.status != status) continue;
-    ObjectReport report;
-    report.id = track.id;
-    report.class_id = track.class_id();
-    report.class_name = class_name_of(report.class_id, class_names);
-    report.confidence = track.confidence();
-    report.hits = track.hits;
-    report.first_seen = track.first_seen;
-    report.last_seen = track.last_seen;
-    report.position_in_enu = track.position_in_enu.mean;
-    report.position = geolocator.local_frame()->to_geodetic(report.position_in_enu);
-    report.covariance_in_enu = track.position_in_enu.covariance;
-    report.ellipse = error_ellipse(track.position_in_enu.covariance);
-    report.height = height_of(track, geolocator);
-    if (track.velocity_in_enu) report.course = course_of(track.velocity_in_enu->mean);
-    reports.push_back(report);
+    while (before != reports.end() && before->id < track.id) ++before;
+    const bool is_known = before != reports.end() && before->id == track.id;
+    if (is_known && tells(*before, track)) {
+      updated.push_back(std::move(*before));
+    } else {
+      updated.push_back(place_of(track, *geolocator.local_frame()));
+    }
+    describe(track, geolocator, class_names, updated.back());
   }
-  return reports;
+  reports = std::move(updated);
 }
 
 std::string class_name_of(int class_id, const std::vector<std::string>& class_names) {

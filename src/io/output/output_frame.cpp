@@ -53,14 +53,21 @@ ViewReport report_view(const Geolocator& geolocator) {
 
 }  // namespace
 
-OutputFrame report_frame(const Geolocator& geolocator, bool is_located, HostTime captured_at,
-                         const std::vector<Detection>& detections,
-                         const std::vector<std::string>& class_names) {
+OutputFrame FrameReporter::report(const Geolocator& geolocator, bool is_located, HostTime captured_at,
+                                  const std::vector<Detection>& detections) {
+  const Geodetic origin = geolocator.local_frame() ? geolocator.local_frame()->origin() : Geodetic{};
+  if (origin.latitude_deg != origin_.latitude_deg || origin.longitude_deg != origin_.longitude_deg) {
+    objects_.clear();
+    tentative_.clear();
+    origin_ = origin;
+  }
+  update_reports(geolocator, class_names_, TrackStatus::kConfirmed, objects_);
+  update_reports(geolocator, class_names_, TrackStatus::kTentative, tentative_);
   OutputFrame frame;
   frame.captured_at = captured_at;
   frame.detections = detections;
-  frame.objects = report_objects(geolocator, class_names, TrackStatus::kConfirmed);
-  frame.tentative = report_objects(geolocator, class_names, TrackStatus::kTentative);
+  frame.objects = objects_;
+  frame.tentative = tentative_;
   frame.estimator = report_estimator(geolocator);
   if (!is_located) return frame;
   frame.view = report_view(geolocator);

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+#include <set>
+
 #include "io/output/loopback_socket.hpp"
 
 namespace geoloc::io {
@@ -69,6 +72,34 @@ TEST(CotSink, AnObjectThatIsBelievedAgainIsSentAgainAtOnce) {
     sent.sink.on_frame(frame_of({}));
     EXPECT_TRUE(sent.is_silent());
   }
+}
+
+TEST(CotSink, ManyObjectsAreToldAFewAtATime) {
+  Sent sent;
+  std::vector<std::uint64_t> ids(100);
+  std::iota(ids.begin(), ids.end(), 1);
+  const auto told_after_a_frame = [&] {
+    sent.sink.on_frame(frame_of(ids));
+    std::vector<std::string> uids;
+    for (std::string event; !(event = receive(sent.receiver.descriptor(), MSG_DONTWAIT)).empty();) {
+      const std::size_t begin = event.find(".1795300000.") + 12;
+      uids.push_back(event.substr(begin, event.find('"', begin) - begin));
+    }
+    return uids;
+  };
+  std::set<std::string> all;
+  for (int frame = 0; frame < 2; ++frame) {
+    const auto told = told_after_a_frame();
+    EXPECT_EQ(told.size(), 30U);
+    all.insert(told.begin(), told.end());
+  }
+  ids.push_back(101);
+  for (int frame = 0; frame < 2; ++frame) {
+    const auto told = told_after_a_frame();
+    all.insert(told.begin(), told.end());
+  }
+  EXPECT_EQ(all.size(), 101U) << "each once, and none twice before all were";
+  EXPECT_TRUE(told_after_a_frame().empty());
 }
 
 /// The run's last objects are fewer than the last frame's.

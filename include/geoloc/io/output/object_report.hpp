@@ -66,6 +66,10 @@ std::vector<ObjectReport> report_objects(const Geolocator& geolocator,
                                          const std::vector<std::string>& class_names,
                                          TrackStatus status = TrackStatus::kConfirmed);
 
+/// The same in place of what `reports` holds: those whose tracks have not changed since are kept.
+void update_reports(const Geolocator& geolocator, const std::vector<std::string>& class_names,
+                    TrackStatus status, std::vector<ObjectReport>& reports);
+
 /// The name of a class; a class without one is called by its number.
 std::string class_name_of(int class_id, const std::vector<std::string>& class_names);
 

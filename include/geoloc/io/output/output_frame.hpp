@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "geoloc/camera/detection.hpp"
@@ -57,9 +58,20 @@ struct OutputFrame {
   std::uint64_t number = 0;  ///< of the frame in the run, from 0
 };
 
-/// `is_located` is what Geolocator::process() returned for this frame.
-OutputFrame report_frame(const Geolocator& geolocator, bool is_located, HostTime captured_at,
-                         const std::vector<Detection>& detections,
-                         const std::vector<std::string>& class_names);
+/// Tells what the estimator knew after one frame after another. Of the objects, those are described anew that
+/// have changed.
+class FrameReporter {
+ public:
+  explicit FrameReporter(std::vector<std::string> class_names) : class_names_(std::move(class_names)) {}
+
+  /// `is_located` is what Geolocator::process() returned for this frame.
+  OutputFrame report(const Geolocator& geolocator, bool is_located, HostTime captured_at,
+                     const std::vector<Detection>& detections);
+
+ private:
+  std::vector<std::string> class_names_;
+  std::vector<ObjectReport> objects_, tentative_;  ///< of the frame before
+  Geodetic origin_;                                ///< of their positions
+};
 
 }  // namespace geoloc::io
