@@ -100,7 +100,7 @@ class DriftTimeline {
   void set_position_scale(double scale) { position_scale_ = scale; }
 
   /// A node that may be gone, by those that are left.
-  NodeHistory::Blend resolve(std::uint32_t serial) { return history_.resolve(serial); }
+  NodeHistory::Blend resolve(std::uint32_t serial) const { return history_.resolve(serial); }
 
   /// How many nodes were made so far.
   std::uint32_t nodes_made() const { return history_.size(); }

@@ -2,12 +2,14 @@
 #include "calibration/node_history.hpp"
 
 #include <cassert>
+#include <utility>
 
 namespace geoloc {
 namespace {
 
 /// The first share that is free, or is that node's.
 void add_share(NodeHistory::Blend& blend, const NodeHistory::Share& share) {
+  if (share.weight == 0.0) return;
   for (NodeHistory::Share& own : blend.shares) {
     if (own.weight != 0.0 && own.serial != share.serial) continue;
     own = {share.serial, own.weight + share.weight};
@@ -16,37 +18,44 @@ void add_share(NodeHistory::Blend& blend, const NodeHistory::Share& share) {
   assert(false);  // no more than two nodes are neighbours of one place
 }
 
+/// Puts `by` in the place of a node.
+void substitute(std::uint32_t gone, const NodeHistory::Blend& by, NodeHistory::Blend& blend) {
+  for (NodeHistory::Share& share : blend.shares) {
+    if (share.weight == 0.0 || share.serial != gone) continue;
+    const double weight = std::exchange(share.weight, 0.0);
+    blend.constant += weight * by.constant;
+    for (const NodeHistory::Share& heir : by.shares) add_share(blend, {heir.serial, weight * heir.weight});
+    return;
+  }
+}
+
 }  // namespace
 
-std::uint32_t NodeHistory::append() {
-  fate_of(size_) = Fate{};
-  return size_++;
-}
+NodeHistory::NodeHistory() : fates_(kRemembered), chains_(kRemembered, kNone) {}
 
 void NodeHistory::replace(std::uint32_t serial, const Blend& by) {
-  fate_of(serial) = {true, by};
+  for (Fate& fate : fates_) substitute(serial, by, fate.blend);
+  const std::uint32_t place = oldest_;
+  oldest_ = (oldest_ + 1) % kRemembered;
+  forget(place);
+  fates_[place] = {serial, std::exchange(chain_of(serial), place), by};
 }
 
-/// Each node that is followed remembers where it led, so that chains stay short.
-NodeHistory::Blend NodeHistory::resolve(std::uint32_t serial) {
-  Fate& fate = fate_of(serial);
-  Blend found;
-  if (!fate.is_gone) {
-    found.shares[0] = {serial, 1.0};
-    return found;
+void NodeHistory::forget(std::uint32_t place) {
+  const Fate& gone = fates_[place];
+  if (gone.serial == kNone) return;
+  std::uint32_t* link = &chain_of(gone.serial);
+  while (*link != place) link = &fates_[*link].next;
+  *link = gone.next;
+}
+
+NodeHistory::Blend NodeHistory::resolve(std::uint32_t serial) const {
+  for (std::uint32_t place = chains_[serial % kRemembered]; place != kNone; place = fates_[place].next) {
+    if (fates_[place].serial == serial) return fates_[place].blend;
   }
-  found.constant = fate.blend.constant;
-  const auto stated = fate.blend.shares;
-  for (const Share& share : stated) {
-    if (share.weight == 0.0) continue;
-    const Blend blend = resolve(share.serial);
-    found.constant += share.weight * blend.constant;
-    for (const Share& of_share : blend.shares) {
-      if (of_share.weight != 0.0) add_share(found, {of_share.serial, share.weight * of_share.weight});
-    }
-  }
-  fate.blend = found;
-  return found;
+  Blend itself;
+  itself.shares[0] = {serial, 1.0};
+  return itself;
 }
 
 }  // namespace geoloc

@@ -4,18 +4,19 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace geoloc {
 
-/// What has become of the drift's nodes since they were made. Nodes are called by their serial numbers here,
-/// which stay. A node that was thinned out is a mean of its neighbours and a constant, and these may have
-/// gone the same way since: whatever was thinned, it is a mean of at most two nodes that are left, which are
-/// neighbours. Never allocates after construction.
+/// What has become of the drift's nodes that are gone. Nodes are called by their serial numbers here, which
+/// stay. A node that was thinned out is a mean of its neighbours and a constant, and these may go the same
+/// way: whatever was thinned, it is a mean of at most two nodes that are left, which are neighbours. Never
+/// allocates after construction.
 class NodeHistory {
  public:
-  /// So many nodes are remembered: whoever calls one by its serial number asks for it before as many more
-  /// were made.
+  /// So many of those that are gone are remembered. Nodes stay for as long as they are of use, some for
+  /// hours: it counts when they went, and not when they were made.
   static constexpr std::uint32_t kRemembered = 1024;
 
   using Vector = Eigen::Matrix<double, 4, 1>;
@@ -29,29 +30,36 @@ class NodeHistory {
     Vector constant = Vector::Zero();
   };
 
-  NodeHistory() : fates_(kRemembered) {}
+  NodeHistory();
 
   /// How many nodes were made.
   std::uint32_t size() const { return size_; }
 
   /// A node is made. Returns its serial number.
-  std::uint32_t append();
+  std::uint32_t append() { return size_++; }
 
-  /// It is left out.
+  /// It is left out. `by`: nodes that are left.
   void replace(std::uint32_t serial, const Blend& by);
 
-  /// By nodes that are left. Remembers what it found.
-  Blend resolve(std::uint32_t serial);
+  /// By nodes that are left: itself, or those that took its place.
+  Blend resolve(std::uint32_t serial) const;
 
  private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  /// Of a node that is gone.
   struct Fate {
-    bool is_gone = false;
-    Blend blend;
+    std::uint32_t serial = kNone;
+    std::uint32_t next = kNone;  // in the chain of its serial number
+    Blend blend;                 // of nodes that are left
   };
 
-  Fate& fate_of(std::uint32_t serial) { return fates_[serial % kRemembered]; }
+  std::uint32_t& chain_of(std::uint32_t serial) { return chains_[serial % kRemembered]; }
+  void forget(std::uint32_t place);
 
-  std::vector<Fate> fates_;  // a ring
+  std::vector<Fate> fates_;            // a ring, in the order in which they went
+  std::vector<std::uint32_t> chains_;  // by serial number: the first of those that share a remainder
+  std::uint32_t oldest_ = 0;           // the place that is taken next
   std::uint32_t size_ = 0;
 };
 

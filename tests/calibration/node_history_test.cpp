@@ -68,5 +68,42 @@ TEST(NodeHistory, TellsANodeByThoseThatAreLeftWhateverWentBetween) {
   }
 }
 
+/// Nodes stay for hours where they are far from their neighbours; what is asked for is what went not long
+/// ago.
+TEST(NodeHistory, KnowsWhatIsLeftForHoursFromWhatWasMadeSince) {
+  NodeHistory history;
+  const std::uint32_t ancient = history.append();
+  std::uint32_t before = ancient;
+  for (int step = 0; step < 5000; ++step) {
+    const std::uint32_t here = history.append(), after = history.append();
+    NodeHistory::Blend blend;
+    blend.constant.setConstant(1.0);
+    blend.shares = {NodeHistory::Share{ancient, 0.25}, NodeHistory::Share{after, 0.75}};
+    history.replace(here, blend);
+    const auto whole = history.resolve(ancient);
+    ASSERT_EQ(whole.shares[0].serial, ancient);
+    ASSERT_EQ(whole.shares[0].weight, 1.0);
+    if (before != ancient) {
+      // Lies between the ancient one and the one before, which went into these two.
+      NodeHistory::Blend half;
+      half.shares = {NodeHistory::Share{ancient, 0.5}, NodeHistory::Share{after, 0.5}};
+      history.replace(before, half);
+      const auto found = history.resolve(before - 1);
+      ASSERT_EQ(found.shares[0].serial, ancient);
+      ASSERT_EQ(found.shares[0].weight, 0.25 + 0.75 * 0.5);
+      ASSERT_EQ(found.shares[1].serial, after);
+      ASSERT_EQ(found.shares[1].weight, 0.75 * 0.5);
+      ASSERT_EQ(found.constant[0], 1.0);
+    }
+    before = after;
+  }
+  NodeHistory::Blend frozen;
+  frozen.constant.setConstant(2.0);
+  history.replace(ancient, frozen);
+  EXPECT_EQ(history.resolve(ancient).constant[0], 2.0);
+  EXPECT_EQ(history.resolve(ancient).shares[0].weight, 0.0);
+  EXPECT_EQ(history.resolve(before - 1).constant[0], 1.0 + 0.25 * 2.0);
+}
+
 }  // namespace
 }  // namespace geoloc
