@@ -2,7 +2,9 @@
 // What a frame costs in a flight over N objects: field_bench N [MINUTES]. The vehicle mows a square field at
 // 20 m with thirty objects in view, ten frames a second. Prints the time of process() in the first thousand
 // frames after the start and in the last thousand, and the memory. With MINUTES it flies over the field again
-// and again for so long; where that is more than twenty, the first thousand are those from the tenth on.
+// and again for so long; where that is more than twenty, the first thousand are those from the tenth on. In
+// the last thousand frames it also times the outputs of a frame: its report in the estimator's thread, JSON
+// Lines and the page in their own.
 #include <time.h>
 
 #include <Eigen/Core>
@@ -11,10 +13,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "geoloc/io/live_page/live_document.hpp"
+#include "geoloc/io/output/json_lines.hpp"
+#include "geoloc/io/output/output_frame.hpp"
 #include "geoloc/pipeline/geolocator.hpp"
 
 namespace {
@@ -25,6 +31,7 @@ constexpr double kHeight_m = 20.0, kSpeed_mps = 5.0, kPeriod_s = 0.1;
 constexpr double kInView = 30.0, kOverlap = 0.3;
 constexpr double kNoise_px = 1.0, kFound = 0.95;
 constexpr std::size_t kFramesTold = 1000, kFramesToBegin = 200, kFramesOfTenMinutes = 6000;
+constexpr double kFramesOfOutputs = 200.0;
 
 /// Places in a square grid from the origin on, each a little beside its node.
 class Field {
@@ -136,6 +143,34 @@ double cpu_time_us() {
   return 1e6 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_nsec);
 }
 
+/// What the outputs of a frame take.
+class Outputs {
+ public:
+  void tell(const Geolocator& geolocator, HostTime captured_at, const std::vector<Detection>& detections) {
+    std::optional<io::OutputFrame> frame;
+    const auto timed = [](std::vector<double>& times_us, const auto& step) {
+      const double begin_us = cpu_time_us();
+      step();
+      times_us.push_back(cpu_time_us() - begin_us);
+    };
+    timed(report_us_, [&] { frame = reporter_.report(geolocator, true, captured_at, detections); });
+    timed(lines_us_, [&] { lines_.frame(*frame); });
+    timed(page_us_, [&] { page_.add(*frame); });
+  }
+
+  void print() const {
+    std::printf("outputs, medians: report %.0f us, JSON Lines %.0f us, page %.0f us\n",
+                quantiles_of(report_us_).median_us, quantiles_of(lines_us_).median_us,
+                quantiles_of(page_us_).median_us);
+  }
+
+ private:
+  io::FrameReporter reporter_{{"object"}};
+  io::JsonLines lines_;
+  io::LiveDocument page_{{"field_bench", true}};
+  std::vector<double> report_us_, lines_us_, page_us_;
+};
+
 double resident_mb() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
@@ -168,6 +203,7 @@ int main(int argc, char** argv) {
   std::mt19937 random(1);
   std::vector<double> times_us;
   std::size_t detections = 0, frames = 0;
+  Outputs outputs;
   for (double told_s = 0.0; told_s < 1.0; told_s += kPeriod_s)
     report(geolocator, earth, told_s, mower.at(told_s));
   for (; kPeriod_s * static_cast<double>(frames) < end_s; ++frames) {
@@ -180,7 +216,11 @@ int main(int argc, char** argv) {
     const double begin_us = cpu_time_us();
     if (!geolocator.process(frame)) std::fprintf(stderr, "frame %zu has no state\n", frames);
     times_us.push_back(cpu_time_us() - begin_us);
+    const double left = end_s / kPeriod_s - static_cast<double>(frames + kFramesTold);
+    if (left > 0.0 && left <= kFramesOfOutputs)
+      outputs.tell(geolocator, frame.captured_at_host, frame.detections);
   }
+  outputs.print();
   std::size_t confirmed = 0;
   for (const Track& track : geolocator.tracks()) confirmed += track.status == TrackStatus::kConfirmed;
   const auto part = [&](std::size_t begin) {
