@@ -3,8 +3,8 @@
 // 20 m with thirty objects in view, ten frames a second. Prints the time of process() in the first thousand
 // frames after the start and in the last thousand, and the memory. With MINUTES it flies over the field again
 // and again for so long; where that is more than twenty, the first thousand are those from the tenth on. In
-// the last thousand frames it also times the outputs of a frame: its report in the estimator's thread, JSON
-// Lines and the page in their own.
+// the two hundred frames before the last thousand it also times the outputs of a frame: its report in the
+// estimator's thread, JSON Lines and the page in their own.
 #include <time.h>
 
 #include <Eigen/Core>

@@ -59,8 +59,11 @@ void PositionPrior::invert() {
     row[i] = 1.0;
     row /= root_(i, i);
   }
-  const auto whitening = whitening_.topLeftCorner(size_, size_);
-  information_.topLeftCorner(size_, size_) = whitening.transpose().lazyProduct(whitening);
+  information_.topLeftCorner(size_, size_).setZero();
+  for (Eigen::Index k = 0; k < size_; ++k) {
+    for (Eigen::Index i = 0; i <= k; ++i)
+      information_.row(i).head(i + 1) += whitening_(k, i) * whitening_.row(k).head(i + 1);
+  }
 }
 
 }  // namespace geoloc

@@ -24,7 +24,7 @@ class PositionPrior {
   Eigen::Index size() const { return size_; }
   double mean(Eigen::Index node) const { return mean_[node]; }
 
-  /// An element of the inverse covariance [1/m^2].
+  /// An element of the inverse covariance [1/m^2]: of the lower triangle.
   double information(Eigen::Index row, Eigen::Index column) const { return information_(row, column); }
 
   /// W = L^-1, where L L' is the covariance: row i tells in sigmas by how much node i differs from what those
