@@ -94,7 +94,7 @@ void ClockWatch::weigh(const FrameBoxes& frame, const PlaceFit& fit, double beli
   if (tally->seen + tally->missed > 0) told_at_ = frame.stamp.captured_at_host;
   if (is_forgotten(frame.stamp.captured_at_host)) doubt_ = 0.0;
   const WatchExpectation& expected = fit.expected();
-  const int strange = fit.strange_boxes(frame, believed_s, places_);
+  const int strange = tally->unexplained == 0 ? 0 : fit.strange_boxes(frame, believed_s, places_);
   const double displaced = fit.found_in(frame) * (tally->seen + tally->missed);
   const double usually_strange = kNewPerFrame + expected.strange_per_frame;
   double evidence = strange * std::log1p(displaced / usually_strange) - displaced - tally->likelihood;

@@ -41,9 +41,11 @@ double PlaceFit::radius_px(const WatchedPlace& place, const FrameView& view, dou
   const double focal_px = viewer_.projector.focal_px(view).x();
   const Eigen::Vector3d to = place.shown_in_enu - view.enu_from_camera.translation;
   const double slope = to.head<2>().norm() / std::max(kLeastDistance_m, -to.z());
-  const double sigma_m = std::hypot(place.sigma_m, place.wandering * wandering_m, slope * place.sigma_up_m);
-  const double sigma_px = std::hypot(expected_.sigma_px, focal_px * expected_.sigma_attitude_rad,
-                                     focal_px * sigma_m / std::max(kLeastDistance_m, to.norm()));
+  const Eigen::Vector3d sigmas_m(place.sigma_m, place.wandering * wandering_m, slope * place.sigma_up_m);
+  const double px_per_m = focal_px / std::max(kLeastDistance_m, to.norm());
+  const double sigma_px =
+      Eigen::Vector3d(expected_.sigma_px, focal_px * expected_.sigma_attitude_rad, px_per_m * sigmas_m.norm())
+          .norm();
   return std::max(kLeastRadius_px * size(), kSigmas * sigma_px);
 }
 
@@ -102,6 +104,7 @@ PlaceFit::Tally PlaceFit::tally(const FrameBoxes& frame, const FrameView& view, 
     tally.likelihood += std::max(if_seen, if_missed);
     if (is_seen && seen != nullptr) seen->set(i % seen->size());
   }
+  tally.unexplained = frame.count - taken.count();
   return tally;
 }
 

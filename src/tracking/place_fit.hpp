@@ -37,6 +37,7 @@ class PlaceFit {
   struct Tally {
     int seen = 0;
     int missed = 0;
+    std::size_t unexplained = 0;  ///< boxes that show none of the places
     double likelihood = 0.0;
   };
   using SeenPlaces = std::bitset<64>;
