@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Measures python -m geoloc.archive: recordings an hour, and what kills of workers and of the driver do to its results.
 
-    PYTHON bench/fleet/archive.py BIN FOLDER [--recordings N] [--only RUN[,RUN…]]
+    PYTHON bench/fleet/archive.py BIN FOLDER [--recordings N] [--frame-rate HZ] [--only RUN[,RUN…]]
 
 PYTHON has the package geoloc, and Ray (pip install . -r python/ray_requirements.txt). BIN holds geoloc_sim; FOLDER is for recordings, which are
 made once, and for results, which are made anew."""
@@ -24,15 +24,14 @@ LENGTH_S = 130  # of a recording
 STARTS_S = [60.0 + 0.5 * i for i in range(34)]  # on the vehicle's clock
 
 
-def make_recordings(bin_dir, folder, count):
-    """Simulated flights of six paths over the same targets, begun at different times: 60 frames a second, so that each is the work of a
-    flight of 13 minutes."""
+def make_recordings(bin_dir, folder, count, frame_rate_hz):
+    """Simulated flights of six paths over the same targets, begun at different times."""
     folder.mkdir(parents=True, exist_ok=True)
     for number, (start_s, path) in zip(range(count), itertools.product(STARTS_S, range(1, 7))):
         place = folder / f"flight-{number:03}"
         if place.exists():
             continue
-        subprocess.run([bin_dir / "geoloc_sim", "--flight", f"gnss_path{path}", "--scenario", "2", "--frame-rate", "60", "--start-s", str(start_s),
+        subprocess.run([bin_dir / "geoloc_sim", "--flight", f"gnss_path{path}", "--scenario", "2", "--frame-rate", str(frame_rate_hz), "--start-s", str(start_s),
                         "--end-s", str(start_s + LENGTH_S), "--record", place], check=True, capture_output=True)
 
 
@@ -59,8 +58,9 @@ def children_of(process_id):
 
 
 def kill_a_worker(driver):
-    """One that works, with SIGKILL. Whether there was one."""
-    workers = [one for one, title in children_of(driver.pid).items() if title.startswith("ray::work") or "geoloc.archive" in title]
+    """One that works, with SIGKILL. Whether there was one. Forked ones have the driver's title."""
+    below = children_of(driver.pid)
+    workers = [one for one, title in below.items() if title.startswith("ray::work") or title == " ".join(map(str, driver.args))]
     if not workers:
         return False
     os.kill(random.choice(workers), signal.SIGKILL)
@@ -70,11 +70,14 @@ def kill_a_worker(driver):
 def finish(driver, kills_every_s=None):
     """Waits for its end; how often a worker was killed."""
     kills, due = 0, time.monotonic() + (kills_every_s or 0.0)
-    while driver.poll() is None:
-        time.sleep(0.02)
-        if kills_every_s and time.monotonic() >= due:
-            if kill_a_worker(driver):
+    try:
+        while driver.poll() is None:
+            time.sleep(0.02)
+            if kills_every_s and time.monotonic() >= due and kill_a_worker(driver):
                 kills, due = kills + 1, due + kills_every_s
+    finally:
+        driver.terminate()
+        driver.wait()
     return kills
 
 
@@ -85,6 +88,10 @@ def sum_of(out):
         if file.is_file():
             digest.update(f"{file.relative_to(out)} {hashlib.sha256(file.read_bytes()).hexdigest()}\n".encode())
     return digest.hexdigest()[:16]
+
+
+def stop(*_):
+    raise SystemExit("stopped")
 
 
 def measure(name, recordings, out, *options, kills_every_s=None, driver_dies_after_s=()):
@@ -116,10 +123,12 @@ def main():
     parser.add_argument("bin", type=pathlib.Path)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--recordings", type=int, default=200)
+    parser.add_argument("--frame-rate", type=float, default=30.0, help="of the recordings, per s: what each costs [%(default)g]")
     parser.add_argument("--only", default="", help="of: processes-1, processes-2, processes-2-killed, ray-1, ray-2, ray-2-killed, ray-2-driver")
     options = parser.parse_args()
+    signal.signal(signal.SIGTERM, stop)
     recordings = options.folder / "recordings"
-    make_recordings(options.bin, recordings, options.recordings)
+    make_recordings(options.bin, recordings, options.recordings, options.frame_rate)
     ray = "--ray", "local", "--workers"
     runs = {
         "processes-1": (("--workers", 1), {}),

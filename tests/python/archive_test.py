@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 import unittest.mock
@@ -32,13 +33,22 @@ class ArchiveTest(AppTest):
 
     FLIGHTS = 3
 
+    @classmethod
+    def setUpClass(cls):
+        holder = tempfile.TemporaryDirectory(prefix="geoloc-test-")
+        cls.addClassCleanup(holder.cleanup)
+        cls.flown = pathlib.Path(holder.name)
+        for path in range(1, 1 + cls.FLIGHTS):
+            recording = cls.flown / f"2026/day{path}/flight"
+            recording.parent.mkdir(parents=True)
+            flown = run("geoloc_sim", "--record", recording, "--start-s", 80, "--end-s", 100, "--flight", f"gnss_path{path}", "--scenario", 2)
+            assert flown.status == 0, flown.err
+            (recording / "class_names.json").write_text('["mark"]')
+
     def setUp(self):
         super().setUp()
         self.archive, self.out = self.folder / "archive", self.folder / "out"
-        for path in range(1, 1 + self.FLIGHTS):
-            (self.archive / "2026" / f"day{path}").mkdir(parents=True)
-            flight = self.make_recording(f"archive/2026/day{path}/flight", "--flight", f"gnss_path{path}", "--scenario", "2")
-            (flight / "class_names.json").write_text('["mark"]')
+        shutil.copytree(self.flown, self.archive)
 
     def command(self, *options):
         return [sys.executable, "-m", "geoloc.archive", str(self.archive), "--out", str(self.out), *map(str, options)]

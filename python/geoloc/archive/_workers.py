@@ -8,6 +8,7 @@ import multiprocessing
 import multiprocessing.connection
 import os
 import signal
+import threading
 from multiprocessing.connection import Connection
 from multiprocessing.context import ForkProcess
 from typing import Any, Protocol
@@ -97,10 +98,13 @@ class RayWorkers:
     def __init__(self, task: Task, address: str, count: int) -> None:
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # Ray would tell its makers
         self._ray: Any = importlib.import_module("ray")
+        on_sigterm = signal.getsignal(signal.SIGTERM)
         if address == "local":
             self._ray.init(address="local", num_cpus=count, include_dashboard=False, log_to_driver=False)
         else:
             self._ray.init(address=address, log_to_driver=False)
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGTERM, on_sigterm)  # Ray's would end the driver without a report
         self._task = self._ray.put(task)
         # The driver counts the tries.
         self._work: Any = self._ray.remote(max_retries=0, num_cpus=1, scheduling_strategy="SPREAD")(work)
