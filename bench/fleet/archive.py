@@ -94,18 +94,18 @@ def stop(*_):
     raise SystemExit("stopped")
 
 
-def measure(name, recordings, out, *options, kills_every_s=None, driver_dies_after_s=()):
+def measure(name, recordings, out, *options, kills_every_s=None, driver_dies_at=()):
     """A run from nothing; prints what came of it."""
     shutil.rmtree(out, ignore_errors=True)
     pathlib.Path(f"{out}.log").unlink(missing_ok=True)
     began, restarts, kills = time.monotonic(), 0, 0
-    for after_s in driver_dies_after_s:
+    for results in driver_dies_at:
         driver = start(recordings, out, *options)
-        time.sleep(after_s)
-        if driver.poll() is None:
-            driver.kill()
-            restarts += 1
+        while driver.poll() is None and len(list(out.glob("recordings/*/job.json"))) < results:
+            time.sleep(0.02)
+        driver.kill()
         driver.wait()
+        restarts += 1
     driver = start(recordings, out, *options)
     kills = finish(driver, kills_every_s)
     wall_s = time.monotonic() - began
@@ -137,7 +137,7 @@ def main():
         "ray-1": ((*ray, 1), {}),
         "ray-2": ((*ray, 2), {}),
         "ray-2-killed": ((*ray, 2), {"kills_every_s": KILL_EVERY_S}),
-        "ray-2-driver": ((*ray, 2), {"driver_dies_after_s": (15, 15)}),
+        "ray-2-driver": ((*ray, 2), {"driver_dies_at": (50, 100)}),
     }
     took_s = {}
     for name in options.only.split(",") if options.only else runs:

@@ -157,6 +157,7 @@ class ArchiveFaults(ArchiveTest):
             how(self.archive / name)
         shutil.copytree(source, self.archive / "silent")
         (self.archive / "silent/telemetry.tlog").write_bytes(heartbeats_of((source / "telemetry.tlog").read_bytes()))
+        (self.archive / os.fsdecode(b"\xff")).symlink_to(source)
         done = self.program("--workers", 2)
         self.assertEqual(done.returncode, 1, done.stderr)
         report = {pathlib.Path(entry["recording"]).name: entry for entry in json.loads((self.out / "report.json").read_text())["recordings"]}
@@ -164,6 +165,7 @@ class ArchiveFaults(ArchiveTest):
             self.assertEqual((report[name]["state"], report[name]["tries"]), ("failed", 3))
             self.assertIn(reason, report[name]["reason"])
             self.assertIn(f"failed 3 times: {self.archive / name}: {report[name]['reason']}", done.stdout)
+        self.assertIn("\\udcff: its name is not UTF-8", done.stdout)
         self.assertEqual((report["silent"]["state"], report["silent"]["flight"]), ("done", None))
         self.assertIn("no frame was located", report["silent"]["reason"])
         self.assertEqual((self.out / "map.geojson").read_bytes(), (self.folder / "good/map.geojson").read_bytes())

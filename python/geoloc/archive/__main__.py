@@ -69,7 +69,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"geoloc.archive: another run works on {options.out}", file=sys.stderr)
         return _UNUSABLE
     except ModuleNotFoundError as error:
-        print(f"geoloc.archive: --ray needs Ray (pip install ray): {error}", file=sys.stderr)
+        print(f"geoloc.archive: --ray needs Ray (pip install 'ray[client]'): {error}", file=sys.stderr)
         return _UNUSABLE
     except (ValueError, OSError) as error:
         print(f"geoloc.archive: {error}", file=sys.stderr)

@@ -100,6 +100,8 @@ def _limited(limit_s: float) -> Iterator[None]:
 def _work(task: Task, recording: pathlib.Path) -> Outcome:
     if _core.version() != task.version:
         raise RuntimeError(f"this worker has geoloc {_core.version()}, and the run was started by {task.version}")
+    if os.fsencode(recording).decode(errors="replace") != os.fspath(recording):
+        raise ValueError("its name is not UTF-8")
     before = _state(recording)
     key = key_of(task, recording)
     place = pathlib.Path(task.results, key)

@@ -58,11 +58,11 @@ class Report:
         return self.count("done", "kept") == len(self.recordings)
 
     def to_json(self) -> str:
-        """report.json."""
+        """report.json, in ASCII: names of folders may be anything."""
         document = asdict(self)
         for one in document["maps"]:
             del one["table"]
-        return json.dumps(document, indent=1, ensure_ascii=False, sort_keys=False) + "\n"
+        return json.dumps(document, indent=1) + "\n"
 
     def to_text(self) -> str:
         """For people: first what was done, then what was not, and why."""
@@ -79,4 +79,5 @@ class Report:
         lines += [f"no flight: {entry.recording}: {entry.reason}" for entry in self.recordings if entry.state != "failed" and entry.reason]
         lines += [f"the same flight: {entry.recording} is that of {entry.same_as}" for entry in self.recordings if entry.same_as]
         tables = [one.table for one in self.maps]
-        return "\n".join(lines) + "\n" + "".join("\n" + table for table in tables)
+        text = "\n".join(lines) + "\n" + "".join("\n" + table for table in tables)
+        return text.encode(errors="backslashreplace").decode()
