@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import hashlib
 import os
 import pathlib
@@ -48,6 +49,12 @@ class Outcome:
     """Why it failed; empty where it did not."""
 
 
+@functools.cache
+def has_geoid() -> bool:
+    """Whether objects get heights above the ellipsoid on this computer; asking reads the geoid."""
+    return _core.has_geoid()
+
+
 def _state(recording: pathlib.Path) -> list[tuple[int, int] | None]:
     """Changes with the files."""
     state: list[tuple[int, int] | None] = []
@@ -73,7 +80,7 @@ def _sum_of(file: pathlib.Path) -> bytes:
 def key_of(task: Task, recording: pathlib.Path) -> str:
     """The same for the same files, settings and version, wherever the recording lies; 128 bits of a SHA-256, as text."""
     digest = hashlib.sha256()
-    told = (task.version, task.settings, str(task.keep_going), f"geoid {_core.has_geoid()}")
+    told = (task.version, task.settings, str(task.keep_going), f"geoid {has_geoid()}")
     for part in told:
         digest.update(hashlib.sha256(part.encode()).digest())
     for name, state in zip(_INPUTS, _state(recording)):

@@ -13,7 +13,7 @@ from multiprocessing.connection import Connection
 from multiprocessing.context import ForkProcess
 from typing import Any, Protocol
 
-from ._job import Outcome, Task, work
+from ._job import Outcome, Task, has_geoid, work
 
 
 class Workers(Protocol):
@@ -49,6 +49,7 @@ class Processes:
     def __init__(self, task: Task, count: int) -> None:
         self._task = task
         self._count = count
+        has_geoid()  # asked once, before the processes are forked that have to know
         self._running: dict[Connection, tuple[str, ForkProcess]] = {}
 
     def room(self) -> int:
