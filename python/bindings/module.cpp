@@ -71,8 +71,9 @@ NB_MODULE(_core, module) {
   using namespace geoloc::python;
   module.def("version", [] { return GEOLOC_VERSION; });
   module.def("row_sizes", [] {
-    return std::array<std::size_t, 4>{sizeof(ObjectRow), sizeof(FixRow), sizeof(RawFixRow),
-                                      sizeof(TrajectoryRow)};
+    return std::array<std::size_t, 6>{sizeof(ObjectRow),        sizeof(FixRow),
+                                      sizeof(RawFixRow),        sizeof(TrajectoryRow),
+                                      sizeof(SummaryObjectRow), sizeof(FusedObjectRow)};
   });
   module.def(
       "explain",
@@ -82,6 +83,7 @@ NB_MODULE(_core, module) {
         return geoloc::explain(static_cast<geoloc::FrameFate>(fate));
       },
       nb::arg("fate"));
+  bind_fleet(module);
   bind_geolocator(module);
   bind_recordings(module);
 }

@@ -19,6 +19,7 @@
 #include "common/run_record.hpp"
 #include "common/run_score.hpp"
 #include "common/session.hpp"
+#include "common/session_summary.hpp"
 #include "files.hpp"
 #include "geoloc/evaluation/score.hpp"
 #include "geoloc/io/atomic_file.hpp"
@@ -42,16 +43,33 @@ apps::EstimationConfig config_of(const io::Recording& recording, const std::stri
   return config;
 }
 
+io::Recording read(const std::string& folder, bool keep_going) {
+  const nb::gil_scoped_release unlocked;
+  return io::read_recording(folder, keep_going ? io::BadLines::kSkip : io::BadLines::kRefuse);
+}
+
 bool is_interrupted() {
   const nb::gil_scoped_acquire locked;
   return PyErr_CheckSignals() != 0;
 }
 
+/// A flight's name is the caller's, and may be unusable.
+void require_usable(const FlightSummary& summary) {
+  for (const std::string& problem : summary.problems()) throw std::invalid_argument(problem);
+}
+
+/// Settings by themselves, over the defaults, every one with its value; faults throw.
+std::string complete_settings(const std::string& settings_json) {
+  apps::EstimationConfig config;
+  apps::apply_settings(nlohmann::json::parse(settings_json), "settings", config);
+  return apps::estimation_to_json(config).dump();
+}
+
 /// A recording that was replayed to its end, with what came of it.
 class Run {
  public:
-  Run(const Files& files, const std::string& settings_json)
-      : recording_(recording_of(files)), session_(config_of(recording_, settings_json)) {
+  Run(io::Recording recording, const std::string& settings_json)
+      : recording_(std::move(recording)), session_(config_of(recording_, settings_json)) {
     session_.note_damaged(recording_.frames_damaged);
     constexpr std::size_t kFramesBetweenLooks = 64;  // for Ctrl-C
     std::size_t frames = 0;
@@ -83,6 +101,12 @@ class Run {
   }
   std::optional<Fields> calibration() const { return calibration_of(session_.geolocator().calibration()); }
   const std::string& summary() const { return record_.summary; }
+  const std::vector<std::string>& class_names() const { return recording_.class_names; }
+  std::optional<FlightSummary> flight_summary(const std::string& flight_id) const {
+    std::optional<FlightSummary> summary = apps::summarize_session(session_, flight_id);
+    if (summary) require_usable(*summary);
+    return summary;
+  }
   std::string geojson() const { return io::objects_to_geojson(record_.objects, record_.estimator); }
 
   /// Empty before the first position.
@@ -170,9 +194,8 @@ void bind_recordings(nb::module_& module) {
       "read_recording",
       [](const std::string& folder, bool keep_going) {
         return or_value_error([&] {
+          const io::Recording recording = read(folder, keep_going);
           const nb::gil_scoped_release unlocked;
-          const auto bad_lines = keep_going ? io::BadLines::kSkip : io::BadLines::kRefuse;
-          const io::Recording recording = io::read_recording(folder, bad_lines);
           return std::make_pair(files_of(recording), recording.skipped.count);
         });
       },
@@ -189,14 +212,22 @@ void bind_recordings(nb::module_& module) {
       .def(
           "__init__",
           [](Run* place, const Files& files, const std::string& settings_json) {
-            or_value_error([&] { return new (place) Run(files, settings_json); });
+            or_value_error([&] { return new (place) Run(recording_of(files), settings_json); });
           },
           nb::arg("files"), nb::arg("settings_json"))
+      .def(
+          "__init__",
+          [](Run* place, const std::string& folder, bool keep_going, const std::string& settings_json) {
+            or_value_error([&] { return new (place) Run(read(folder, keep_going), settings_json); });
+          },
+          nb::arg("folder"), nb::arg("keep_going"), nb::arg("settings_json"))
       .def("objects", &Run::objects)
       .def("fixes", &Run::fixes)
       .def("trajectory", &Run::trajectory)
       .def("calibration", &Run::calibration)
       .def("summary", &Run::summary)
+      .def("class_names", &Run::class_names)
+      .def("flight_summary", &Run::flight_summary, nb::arg("flight_id"))
       .def("geojson", &Run::geojson)
       .def("fixes_csv", &Run::fixes_csv)
       .def(
@@ -205,6 +236,13 @@ void bind_recordings(nb::module_& module) {
             return or_value_error([&] { return run.score(truth); });
           },
           nb::arg("truth_geojson").none());
+  module.def(
+      "complete_settings",
+      [](const std::string& settings_json) {
+        return or_value_error([&] { return complete_settings(settings_json); });
+      },
+      nb::arg("settings_json"));
+  module.def("has_geoid", [] { return io::Geoid().is_installed(); });
   module.def("score_places", &score_places, nb::arg("objects_deg"), nb::arg("targets_deg"));
   module.def(
       "write_file",

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "geoloc/fleet/flight_summary.hpp"
+#include "geoloc/fleet/fusion.hpp"
 #include "geoloc/geoloc.hpp"
 #include "geoloc/io/output/raw_fixes.hpp"
 #include "geoloc/io/output/run_record.hpp"
@@ -49,8 +51,30 @@ struct TrajectoryRow {
   double latitude_deg, longitude_deg, position_in_enu_m[3];
 };
 
+/// An object of one flight's summary.
+struct SummaryObjectRow {
+  std::uint64_t id;
+  std::int64_t class_id, hits;
+  double confidence;
+  double position_in_enu_m[3], own_covariance_m2[9];
+  std::int64_t first_seen_ns, last_seen_ns;
+};
+
+/// An object of the map of many flights.
+struct FusedObjectRow {
+  std::uint64_t id;
+  std::int64_t class_id, hits;
+  double confidence;
+  double latitude_deg, longitude_deg, height_above_home_m;
+  double sigma_major_m, sigma_minor_m, sigma_azimuth_deg, sigma_height_m;
+  double position_in_enu_m[3], covariance_m2[9];
+  std::int64_t first_seen_ns, last_seen_ns;
+};
+
 ObjectRow row_of(const Track& track, const LocalFrame& frame);
 FixRow row_of(const LocatedDetection& located, const LocalFrame& frame);
+SummaryObjectRow row_of(const FlightSummary::Object& object);
+FusedObjectRow row_of(const FusedObject& object, const LocalFrame& frame);
 RawFixRow row_of(const io::RawFix& fix, const LocalFrame& frame);
 TrajectoryRow row_of(const io::TrajectoryPoint& point, const LocalFrame& frame);
 

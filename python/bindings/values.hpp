@@ -67,6 +67,7 @@ auto or_value_error(const Body& body) {
   }
 }
 
+void bind_fleet(nb::module_& module);
 void bind_geolocator(nb::module_& module);
 void bind_recordings(nb::module_& module);
 

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._fleet import FlightSummary
 from ._results import Calibration, Score
 from ._rows import OBJECT, RAW_FIX, TRAJECTORY, rows
 from ._settings import settings_json, to_json
@@ -164,6 +165,15 @@ class Result:
         """What was learnt of the constant errors; None where the method learns none."""
         self.summary: str = run.summary()
         """Lines for a person, as geoloc_replay says them."""
+
+    def flight_summary(self, flight: str = "") -> FlightSummary | None:
+        """All that the flight knows of its objects at rest, for `geoloc.fuse`: what geoloc_replay's --summary writes. None before the first
+        located frame, and of the method "paper".
+
+        flight: its name, up to 64 letters, digits and ``-_.:``; empty: the time and place of its start. Raises ValueError for another name.
+        """
+        core = self._run.flight_summary(flight)
+        return None if core is None else FlightSummary(core)
 
     def to_geojson(self, path: str | os.PathLike[str]) -> None:
         """Writes the file that geoloc_replay's --out writes; it appears whole or not at all. Raises RuntimeError where it cannot be written."""

@@ -62,7 +62,44 @@ RAW_FIX = np.dtype(
 #: Where the vehicle was at the located frames of a run.
 TRAJECTORY = np.dtype([("captured_at", _TIME), *_PLACE, ("position_in_enu_m", "f8", 3)], align=True)
 
-_sizes = tuple(dtype.itemsize for dtype in (OBJECT, FIX, RAW_FIX, TRAJECTORY))
+_SEEN = [("first_seen", _TIME), ("last_seen", _TIME)]
+
+#: Objects of one flight's summary; positions are east, north, up in the flight's local frame.
+SUMMARY_OBJECT = np.dtype(
+    [
+        ("id", "u8"),
+        ("class_id", "i8"),
+        ("hits", "i8"),
+        ("confidence", "f8"),
+        ("position_in_enu_m", "f8", 3),
+        ("own_covariance_m2", "f8", (3, 3)),
+        *_SEEN,
+    ],
+    align=True,
+)
+
+#: Objects of the map of many flights; covariance_m2 is that of the absolute position: east, north, up.
+FUSED_OBJECT = np.dtype(
+    [
+        ("id", "u8"),
+        ("class_id", "i8"),
+        ("hits", "i8"),
+        ("confidence", "f8"),
+        ("latitude_deg", "f8"),
+        ("longitude_deg", "f8"),
+        ("height_above_home_m", "f8"),
+        ("sigma_major_m", "f8"),
+        ("sigma_minor_m", "f8"),
+        ("sigma_azimuth_deg", "f8"),
+        ("sigma_height_m", "f8"),
+        ("position_in_enu_m", "f8", 3),
+        ("covariance_m2", "f8", (3, 3)),
+        *_SEEN,
+    ],
+    align=True,
+)
+
+_sizes = tuple(dtype.itemsize for dtype in (OBJECT, FIX, RAW_FIX, TRAJECTORY, SUMMARY_OBJECT, FUSED_OBJECT))
 if _sizes != tuple(_core.row_sizes()):
     raise ImportError(f"geoloc's module lays out rows of {_core.row_sizes()} bytes, not of {_sizes}: install it anew")
 

@@ -16,22 +16,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-const char* word_of_verdict(FlightVerdict verdict) {
-  switch (verdict) {
-    case FlightVerdict::kFused:
-      return "fused";
-    case FlightVerdict::kAlone:
-      return "alone";
-    case FlightVerdict::kDisputed:
-      return "disputed";
-    case FlightVerdict::kQuarantined:
-      return "quarantined";
-    case FlightVerdict::kTooFar:
-      return "too far";
-  }
-  return "";
-}
-
 ordered_json feature_of(const FusedMap& map, const FusedObject& fused, const ObjectReport& object) {
   auto flights = ordered_json::array();
   for (const Contribution& contribution : fused.contributions)
@@ -49,7 +33,7 @@ ordered_json flight_to_json(const FusedFlight& flight) {
   return {{"flight", flight.identity.flight},
           {"vehicle", flight.identity.vehicle},
           {"sequence", flight.identity.sequence},
-          {"verdict", word_of_verdict(flight.verdict)},
+          {"verdict", word_of(flight.verdict)},
           {"reason", flight.reason},
           {"objects", flight.objects},
           {"shared_objects", flight.shared_objects},
@@ -59,6 +43,22 @@ ordered_json flight_to_json(const FusedFlight& flight) {
 }
 
 }  // namespace
+
+const char* word_of(FlightVerdict verdict) {
+  switch (verdict) {
+    case FlightVerdict::kFused:
+      return "fused";
+    case FlightVerdict::kAlone:
+      return "alone";
+    case FlightVerdict::kDisputed:
+      return "disputed";
+    case FlightVerdict::kQuarantined:
+      return "quarantined";
+    case FlightVerdict::kTooFar:
+      return "too far";
+  }
+  return "";
+}
 
 std::vector<ObjectReport> report_objects(const FusedMap& map, const std::vector<std::string>& class_names) {
   std::vector<ObjectReport> reports;
@@ -107,7 +107,7 @@ std::string flights_to_table(const FusedMap& map) {
   for (const FusedFlight& flight : map.flights) {
     const Eigen::Vector3d &error = flight.common_error_m, &sigma = flight.sigma_m;
     fmt::format_to(std::back_inserter(table), "{:<{}}  {:<11} {:>7} {:>6}  {:>14} {:>14} {:>14} {:>6.1f}\n",
-                   flight.identity.flight, width, word_of_verdict(flight.verdict), flight.objects,
+                   flight.identity.flight, width, word_of(flight.verdict), flight.objects,
                    flight.shared_objects, with_sigma(error.x(), sigma.x()), with_sigma(error.y(), sigma.y()),
                    with_sigma(error.z(), sigma.z()), flight.chi2);
     if (!flight.reason.empty()) table += "    " + flight.reason + "\n";

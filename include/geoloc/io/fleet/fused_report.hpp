@@ -9,6 +9,9 @@
 
 namespace geoloc::io {
 
+/// What the outputs call it.
+const char* word_of(FlightVerdict verdict);
+
 /// The fleet's objects as every output reports them; heights are above home where the fleet knows none.
 std::vector<ObjectReport> report_objects(const FusedMap& map, const std::vector<std::string>& class_names);
 
