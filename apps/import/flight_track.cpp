@@ -121,6 +121,7 @@ FlightTrack track_of(io::FlightLog log, const TrackFacts& facts) {
   note_damage(log, track);
   track.positions = positions_above_home(log, facts.take_off_height_m, track.assumptions);
   drop_held_positions(track.positions);
+  take_out_rounding(track.positions, track.notes);
   take_velocities(log.velocities, track.positions);
   take_angles(log, facts, track);
   track.fixes = std::move(log.fixes);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "import/track_motion.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "geoloc/geometry/angles.hpp"
+#include "import/rounding.hpp"
 #include "import/way.hpp"
 
 namespace geoloc::apps {
@@ -37,6 +41,26 @@ Eigen::Vector3d velocity_at(const std::vector<io::LoggedVelocity>& told, Vehicle
   const auto before = std::prev(after);
   const double share = seconds(time - before->time) / seconds(after->time - before->time);
   return before->velocity_in_enu + share * (after->velocity_in_enu - before->velocity_in_enu);
+}
+
+/// Whether `value` of the positions, a reference to a number of metres_per_unit, was rounded and is now
+/// smoothed.
+template <typename Value>
+bool smooth(std::vector<PositionSample>& positions, double finest, double metres_per_unit,
+            const Value& value) {
+  std::vector<double> told, time_s;
+  for (PositionSample& position : positions) {
+    told.push_back(value(position));
+    time_s.push_back(seconds(position.time - positions.front().time));
+  }
+  const double step = rounding_step(told, finest);
+  if (!(step > 0.0)) return false;
+  const double origin = told.front();  // metres from there are small numbers
+  for (double& number : told) number = (number - origin) * metres_per_unit;
+  const std::vector<double> smoothed = unrounded(time_s, told, step * metres_per_unit);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    value(positions[i]) = origin + smoothed[i] / metres_per_unit;
+  return true;
 }
 
 }  // namespace
@@ -77,6 +101,23 @@ void drop_held_positions(std::vector<PositionSample>& positions) {
     if (kept.empty() || !holds(kept.back(), position)) kept.push_back(position);
   }
   positions = std::move(kept);
+}
+
+void take_out_rounding(std::vector<PositionSample>& positions, std::vector<std::string>& notes) {
+  constexpr double kFinest_deg = 1e-6, kFinest_m = 0.1;
+  if (positions.empty()) return;
+  const double east_m = kMetresPerDegree * std::cos(positions.front().position.latitude_deg * kRadPerDeg);
+  const bool is_latitude_rounded =
+      smooth(positions, kFinest_deg, kMetresPerDegree,
+             [](PositionSample& position) -> double& { return position.position.latitude_deg; });
+  const bool is_longitude_rounded =
+      smooth(positions, kFinest_deg, east_m,
+             [](PositionSample& position) -> double& { return position.position.longitude_deg; });
+  smooth(positions, kFinest_m, 1.0,
+         [](PositionSample& position) -> double& { return position.height_above_home_m; });
+  if (is_latitude_rounded || is_longitude_rounded)
+    notes.emplace_back(
+        "the log rounds its coordinates: where the vehicle was within them is told by how it moved on");
 }
 
 }  // namespace geoloc::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "geoloc/io/logs/flight_log.hpp"
@@ -17,5 +18,9 @@ std::vector<AttitudeSample> level_towards_course(const std::vector<PositionSampl
 /// Without samples that repeat the place before: a receiver that is slower than the log. Of a vehicle that
 /// hovers, one every half second stays.
 void drop_held_positions(std::vector<PositionSample>& positions);
+
+/// Where coordinates or heights are rounded coarsely, takes out of that what a smooth movement tells
+/// (unrounded), and notes it.
+void take_out_rounding(std::vector<PositionSample>& positions, std::vector<std::string>& notes);
 
 }  // namespace geoloc::apps

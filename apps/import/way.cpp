@@ -8,7 +8,6 @@
 namespace geoloc::apps {
 
 Eigen::Vector3d way(const PositionSample& from, const PositionSample& to) {
-  constexpr double kMetresPerDegree = 111'319.5;
   const double east_deg = std::remainder(to.position.longitude_deg - from.position.longitude_deg, 360.0);
   return {east_deg * std::cos(from.position.latitude_deg * kRadPerDeg) * kMetresPerDegree,
           (to.position.latitude_deg - from.position.latitude_deg) * kMetresPerDegree,
