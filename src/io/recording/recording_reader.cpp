@@ -11,11 +11,11 @@
 
 #include "geoloc/io/json/camera_fields.hpp"
 #include "geoloc/io/json/camera_file.hpp"
-#include "geoloc/io/text_file.hpp"
 #include "geoloc/io/json/detection_fields.hpp"
 #include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/object_pictures.hpp"
 #include "geoloc/io/recording/recording_files.hpp"
+#include "geoloc/io/text_file.hpp"
 #include "io/json/plain_values.hpp"
 
 namespace geoloc::io {
