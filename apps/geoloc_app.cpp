@@ -67,6 +67,7 @@ struct Program {
         telemetry(telemetry_settings(), inputs.socket.get(), *inputs.guard, *inputs.video, clock),
         outputs(inputs.detector->class_names(), {}) {
     add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
+    delivery = add_summary_publisher(given.outputs, inputs.config.estimation, outputs);
     if (!given.outputs.wants_raw_fixes()) session.history().only_count_fixes();
     page = open_live_page(given.outputs, given.ground, inputs.config.estimation.live_page, {source(), true},
                           inputs.detector->class_names(), outputs);
@@ -104,8 +105,9 @@ struct Program {
   Session session;
   TelemetryInput telemetry;
   Outputs outputs;
-  std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
-  std::optional<Recorder> recorder;    ///< made last: a run that cannot begin leaves no folder
+  std::shared_ptr<io::LivePage> page;                   ///< nullptr where none is wanted
+  std::shared_ptr<const io::SummaryDelivery> delivery;  ///< to the fleet; nullptr where there is none
+  std::optional<Recorder> recorder;  ///< made last: a run that cannot begin leaves no folder
 };
 
 std::string telemetry_words(const LiveOptions& options) {
@@ -172,8 +174,9 @@ VideoEnd run_until_stopped(Program& program, MessageBox& library_words, Console&
       const io::VideoStatus video = inputs.video->status();
       const std::string doubt_now =
           doubt_of(program.session, tally_of(video, worker.stats()), now - started_at);
-      const auto state = live_status(now, started_at, program.session, program.telemetry, *inputs.video,
-                                     worker, run, damage.observe(now, video), doubt.show(now, doubt_now));
+      auto state = live_status(now, started_at, program.session, program.telemetry, *inputs.video, worker,
+                               run, damage.observe(now, video), doubt.show(now, doubt_now));
+      if (program.delivery) state.fleet = program.delivery->words();
       tell_all(library_words.take(), console);
       tell_all(program.outputs.take_messages(), console);
       tell_all(program.recorder->take_messages(), console);
@@ -255,6 +258,7 @@ int main(int argc, char** argv) {
   program->outputs.finish(record);
   tell_all(program->outputs.take_messages(), console);
   tell_all(library_words->take(), console);
+  if (program->delivery) console.say(program->delivery->words());
   const std::string refusals = count_of_refusals(program->inputs.guard->counts());
   if (!refusals.empty()) console.say(refusals);
   console.say(record.summary);

@@ -126,12 +126,14 @@ struct Program {
         outputs(recording.class_names, io::SinkRunnerConfig{256, io::WhenFull::kWait}) {
     outputs.notes()->load(recording.notes);
     add_sinks(options.outputs, config, io::OldFile::kReplace, outputs);
+    delivery = add_summary_publisher(options.outputs, config, outputs);
     page = open_live_page(options.outputs, options.ground, config.live_page, {options.recording, false},
                           recording.class_names, outputs, playback);
     if (page) {
       for (const auto& [id, jpeg] : recording.pictures) page->show_object(id, jpeg);
     }
-    show.emplace(ShowSource{recording, config, truth, options.recording}, outputs, page.get(), *playback);
+    show.emplace(ShowSource{recording, config, truth, options.recording, options.outputs}, outputs,
+                 page.get(), *playback);
   }
 
   static HostTime begin_of(const io::Recording& recording) {
@@ -155,7 +157,8 @@ struct Program {
   std::vector<io::TrueTarget> truth;
   std::shared_ptr<io::ReplayControl> playback;
   Outputs outputs;
-  std::shared_ptr<io::LivePage> page;  ///< nullptr where none is wanted
+  std::shared_ptr<io::LivePage> page;                   ///< nullptr where none is wanted
+  std::shared_ptr<const io::SummaryDelivery> delivery;  ///< to the fleet; nullptr where there is none
   std::optional<ReplayShow> show;
 };
 
@@ -232,6 +235,7 @@ int main(int argc, char** argv) {
   program->tell_all();
   if (options.outputs.wants_table()) std::fputs(objects_to_table(record.objects).c_str(), stdout);
   std::fprintf(stderr, "%s\n", record.summary.c_str());
+  if (program->delivery) std::fprintf(stderr, "%s\n", program->delivery->words().c_str());
   const bool has_failed = keep_page(*program, record, stop);
   return has_failed || program->outputs.has_failed() ? kFailed : kDone;
 }

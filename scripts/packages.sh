@@ -6,7 +6,7 @@ LIBRARY_PACKAGES=(g++ cmake ninja-build libeigen3-dev libgeographiclib-dev libgt
 BUILD_PACKAGES=(
   g++ make cmake ninja-build ccache pkg-config python3 python3-venv
   libeigen3-dev libgeographiclib-dev
-  nlohmann-json3-dev libcli11-dev libboost-dev libfmt-dev libqrencode-dev libssl-dev libyaml-cpp-dev zlib1g-dev
+  nlohmann-json3-dev libcli11-dev libboost-dev libfmt-dev libmosquitto-dev libpq-dev libqrencode-dev libssl-dev libyaml-cpp-dev zlib1g-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-calib3d-dev libopencv-dnn-dev
   libgstreamer1.0-dev libgstreamer-plugins-base1.0-dev libgstrtspserver-1.0-dev
 )
@@ -15,7 +15,8 @@ RUN_PACKAGES=(
   gstreamer1.0-plugins-base gstreamer1.0-plugins-good gstreamer1.0-plugins-bad gstreamer1.0-plugins-ugly
   gstreamer1.0-libav
 )
-TEST_PACKAGES=(git chromium dpkg-dev file python3-dev libgtest-dev libbenchmark-dev gdal-bin libimage-exiftool-perl openssl)
+FLEET_SERVERS=(mosquitto postgresql-postgis)  # a broker and a database, for the fleet demo and the tests
+TEST_PACKAGES=("${FLEET_SERVERS[@]}" git chromium dpkg-dev file python3-dev libgtest-dev libbenchmark-dev gdal-bin libimage-exiftool-perl openssl)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-dev)
 OPENVINO_VERSION=2026.4.1  # on PyPI
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "geoloc/io/atomic_file.hpp"
-#include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/text_file.hpp"
 
 namespace geoloc::apps {
 namespace {

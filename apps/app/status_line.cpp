@@ -34,9 +34,10 @@ std::string status_line(const io::LiveStatus& status) {
   const bool is_known = status.frames > status.frames_unusable;
   const std::string delay =
       has_room && is_known ? fmt::format("  delay {:.1f} s", 1e-3 * status.latency_ms) : "";
-  return fmt::format("{:02d}:{:02d}  objects {}  telemetry {:.0f}/s  {}{}", elapsed_s / 60, elapsed_s % 60,
+  const std::string fleet = status.fleet.empty() ? "" : "  " + status.fleet;
+  return fmt::format("{:02d}:{:02d}  objects {}  telemetry {:.0f}/s  {}{}{}", elapsed_s / 60, elapsed_s % 60,
                      status.objects, std::min(status.attitude_rate_hz, status.position_rate_hz),
-                     of_video(status), delay);
+                     of_video(status), delay, fleet);
 }
 
 }  // namespace geoloc::apps

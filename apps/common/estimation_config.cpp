@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "common/estimation_fields.hpp"
-#include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/text_file.hpp"
 #include "io/config/settings_json.hpp"
 #include "io/json/field_writer.hpp"
 

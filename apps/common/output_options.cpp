@@ -38,11 +38,16 @@ std::string summary_text(const io::RunRecord& run, bool is_json) {
 
 /// Throws std::invalid_argument where there will be none, or none that can be read.
 void check_summary(const OutputOptions& options, const EstimationConfig& config) {
-  if (options.summary.empty()) return;
+  if (!options.wants_summary()) {
+    if (!options.flight_id.empty())
+      throw std::invalid_argument(
+          "--flight-id names the flight in its summary: give --summary or --mqtt, too");
+    return;
+  }
   if (config.geolocator.method != Method::kJoint)
-    throw std::invalid_argument(
-        "--summary: the method paper does not know what its objects are off by in "
-        "common; use --method joint");
+    throw std::invalid_argument(std::string(options.summary.empty() ? "--mqtt" : "--summary") +
+                                ": the method paper does not know what its objects are off by in "
+                                "common; use --method joint");
   FlightSummary named;
   named.identity.flight = options.flight_id.empty() ? "a" : options.flight_id;
   for (const std::string& problem : named.problems())
@@ -52,39 +57,35 @@ void check_summary(const OutputOptions& options, const EstimationConfig& config)
 }  // namespace
 
 void add_summary(const OutputOptions& options, const Session& session, io::RunRecord& run) {
-  if (!options.summary.empty()) run.flight_summary = summarize_session(session, options.flight_id);
+  if (options.wants_summary()) run.flight_summary = summarize_session(session, options.flight_id);
 }
 
 bool OutputOptions::wants_table() const {
   return objects.empty() && std::find(jsonl.begin(), jsonl.end(), "-") == jsonl.end();
 }
 
-void add_output_options(CLI::App& program, OutputOptions& options) {
-  const auto add = [&program](const char* name, std::string& file, const char* help) {
-    program.add_option(name, file, help)->type_name("FILE")->group("Outputs");
-  };
-  add("--out", options.objects, "Confirmed objects, GeoJSON");
-  add("--csv", options.csv, "Confirmed objects, CSV");
-  add("--kml", options.kml, "Objects, ellipses and trajectory for Google Earth, KML");
-  const auto add_several = [&program](const char* name, std::vector<std::string>& targets, const char* help,
-                                      const char* type) {
-    program.add_option(name, targets, help)->type_name(type)->allow_extra_args(false)->group("Outputs");
-  };
-  add_several("--jsonl", options.jsonl, "Frames and objects as they come, JSON Lines; - is stdout", "FILE");
-  add_several("--cot", options.cot,
+namespace {
+
+void add_file(CLI::App& program, const char* name, std::string& file, const char* help) {
+  program.add_option(name, file, help)->type_name("FILE")->group("Outputs");
+}
+
+void add_several(CLI::App& program, const char* name, std::vector<std::string>& targets, const char* help,
+                 const char* type) {
+  program.add_option(name, targets, help)->type_name(type)->allow_extra_args(false)->group("Outputs");
+}
+
+}  // namespace
+
+void add_object_outputs(CLI::App& program, OutputOptions& options) {
+  add_file(program, "--out", options.objects, "Confirmed objects, GeoJSON");
+  add_file(program, "--csv", options.csv, "Confirmed objects, CSV");
+  add_file(program, "--kml", options.kml, "Objects, ellipses and trajectory for Google Earth, KML");
+  add_several(program, "--cot", options.cot,
               "Confirmed objects to TAK: udp://HOST:PORT, tcp://HOST:PORT or tls://HOST:PORT; ATAK: "
               "udp://239.2.3.1:6969",
               "URL");
-  add("--raw", options.raw, "Every located detection, CSV");
-  add("--picture", options.picture, "Map of the run, SVG");
-  add("--summary", options.summary,
-      "All that the flight knows of its objects, for geoloc_fuse; JSON where the name ends in .json");
-  program
-      .add_option("--flight-id", options.flight_id,
-                  "Name of the flight in its summary [time and place of its start, and the vehicle's number]")
-      ->type_name("NAME")
-      ->needs(program.get_option("--summary"))
-      ->group("Outputs");
+  add_file(program, "--picture", options.picture, "Map of the run, SVG");
   CLI::Option* const http = program.add_option(
       "--http", options.http,
       "A page that shows the run, for browsers: PORT for those of this computer, or HOST:PORT");
@@ -103,6 +104,23 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
       ->group("Outputs");
 }
 
+void add_output_options(CLI::App& program, OutputOptions& options) {
+  add_object_outputs(program, options);
+  add_several(program, "--jsonl", options.jsonl, "Frames and objects as they come, JSON Lines; - is stdout",
+              "FILE");
+  add_file(program, "--raw", options.raw, "Every located detection, CSV");
+  add_file(program, "--summary", options.summary,
+           "All that the flight knows of its objects, for geoloc_fuse; JSON where the name ends in .json");
+  program
+      .add_option("--flight-id", options.flight_id,
+                  "Name of the flight in its summary [time and place of its start, and the vehicle's number]")
+      ->type_name("NAME")
+      ->group("Outputs");
+  add_mqtt_options(
+      program, options.mqtt,
+      "The flight's summary to its fleet, every 5 s: mqtt://[USER@]HOST[:PORT]/FLEET, or mqtts://");
+}
+
 NamedFiles files_of(const OutputOptions& options) {
   NamedFiles files;
   add_named(files, "--out", options.objects);
@@ -118,7 +136,7 @@ NamedFiles files_of(const OutputOptions& options) {
 }
 
 NamedFiles inputs_of(const OutputOptions& options) {
-  NamedFiles files;
+  NamedFiles files = inputs_of(options.mqtt);
   add_named(files, "--http-token", options.http_token);
   add_named(files, "--map", options.map);
   return files;
@@ -150,6 +168,18 @@ void add_sinks(const OutputOptions& options, const EstimationConfig& config, io:
   add("--summary", options.summary, [is_json = ends_in_json(options.summary)](const io::RunRecord& run) {
     return summary_text(run, is_json);
   });
+}
+
+std::shared_ptr<const io::SummaryDelivery> add_summary_publisher(const OutputOptions& options,
+                                                                 const EstimationConfig& config,
+                                                                 Outputs& outputs) {
+  if (options.mqtt.url.empty()) return nullptr;
+  check_summary(options, config);
+  const io::MqttAccess access = mqtt_access(options.mqtt);
+  if (const std::string warning = warning_of(access); !warning.empty()) outputs.teller()(warning);
+  auto delivery = std::make_shared<io::SummaryDelivery>();
+  outputs.add(std::make_unique<io::SummaryPublisher>(access, outputs.teller(), delivery));
+  return delivery;
 }
 
 }  // namespace geoloc::apps

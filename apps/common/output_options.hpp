@@ -2,11 +2,14 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "common/mqtt_options.hpp"
 #include "common/output_files.hpp"
 #include "common/outputs.hpp"
+#include "geoloc/io/mqtt/summary_publisher.hpp"
 #include "geoloc/io/output/result_file.hpp"
 
 namespace geoloc::apps {
@@ -25,16 +28,23 @@ struct OutputOptions {
   std::string kml;                 ///< of the run
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output
   std::vector<std::string> cot;    ///< endpoints: {udp,tcp,tls}://HOST:PORT
+  MqttOptions mqtt;                ///< of the fleet that the flight belongs to
 
   /// Whether the objects go to standard output as a table: no file holds them, and the output is free.
   bool wants_table() const;
+
+  /// Whether an output is the flight's summary.
+  bool wants_summary() const { return !summary.empty() || !mqtt.url.empty(); }
 
   /// Whether a file shows the raw fixes.
   bool wants_raw_fixes() const { return !raw.empty() || !picture.empty(); }
 };
 
-/// --out, --csv, --kml, --jsonl, --cot, --raw, --picture, --summary, --flight-id, --http, --http-token,
-/// --map.
+/// Outputs of objects, whether of a run or of a fleet: --out, --csv, --kml, --cot, --picture, --http,
+/// --http-token, --map.
+void add_object_outputs(CLI::App& program, OutputOptions& options);
+
+/// These, and the outputs of a run: --jsonl, --raw, --summary, --flight-id, --mqtt and what belongs to it.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
 /// Those of them that are files, for check_outputs().
@@ -50,5 +60,10 @@ void add_summary(const OutputOptions& options, const Session& session, io::RunRe
 /// Throws std::invalid_argument for a target that is none.
 void add_sinks(const OutputOptions& options, const EstimationConfig& config, io::OldFile old_files,
                Outputs& outputs);
+
+/// The sink of --mqtt; nullptr where there is none. Throws std::exception saying what is wrong with it.
+std::shared_ptr<const io::SummaryDelivery> add_summary_publisher(const OutputOptions& options,
+                                                                 const EstimationConfig& config,
+                                                                 Outputs& outputs);
 
 }  // namespace geoloc::apps

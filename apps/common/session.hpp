@@ -47,7 +47,11 @@ class Session final : private io::TelemetrySink {
   bool process(const PendingFrame& frame);
 
   /// No more frames come: objects are as good as they get.
-  void finish() { geolocator_.finish(); }
+  void finish() {
+    geolocator_.finish();
+    is_finished_ = true;
+  }
+  bool is_finished() const { return is_finished_; }
 
   /// Frames given to process(), and those of them that had no state.
   std::uint64_t frames() const { return geolocator_.counters().frames + frames_without_vehicle_; }
@@ -106,6 +110,7 @@ class Session final : private io::TelemetrySink {
   FrameDetections frame_;  // reused
   FrameLooks frame_looks_;
   std::vector<io::Look> looks_;
+  bool is_finished_ = false;
   std::uint64_t frames_damaged_ = 0;
   std::uint64_t frames_without_vehicle_ = 0;  // before its clock was known
 };

@@ -33,7 +33,7 @@ std::optional<FlightSummary> summarize_session(const Session& session, const std
   FlightIdentity identity;
   identity.flight = flight_id.empty() ? name_of_flight(session) : flight_id;
   identity.vehicle = fmt::format("system-{}", system_of(session));
-  identity.sequence = session.frames();
+  identity.sequence = session.frames() + (session.is_finished() ? 1 : 0);  // the end may come without a frame
   return summarize(*estimate, std::move(identity), geolocator.local_frame()->origin(),
                    geolocator.state().home_height_msl_m());
 }

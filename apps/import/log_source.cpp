@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "geoloc/io/json/camera_file.hpp"
 #include "geoloc/io/logs/log_formats.hpp"
+#include "geoloc/io/text_file.hpp"
 #include "import/link_times.hpp"
 
 namespace geoloc::apps {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "geoloc/io/json/camera_file.hpp"
+#include "geoloc/io/text_file.hpp"
 #include "import/import_words.hpp"
 
 namespace geoloc::apps {

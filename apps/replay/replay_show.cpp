@@ -72,6 +72,7 @@ bool ReplayShow::play_once(const StopSignal& stop) {
     if (++done > posted_) {
       posted_ = done;
       outputs_.post_frame(*session_, frame, is_located);
+      tell_fleet();
     }
     if (page_ != nullptr) show(frame, is_located);
     progress.show(done);
@@ -79,6 +80,17 @@ bool ReplayShow::play_once(const StopSignal& stop) {
   });
   progress.finish();
   return !goes_back;
+}
+
+/// A flight that is played at its own pace tells its fleet now and then, as it did when it was flown.
+void ReplayShow::tell_fleet() {
+  const auto now = std::chrono::steady_clock::now();
+  if (source_.outputs.mqtt.url.empty() || playback_.state().speed == 0.0) return;
+  if (fleet_told_at_ && now - *fleet_told_at_ < kRecordPeriod) return;
+  fleet_told_at_ = now;
+  io::RunRecord run = record();
+  add_summary(source_.outputs, *session_, run);
+  outputs_.post_run(std::move(run));
 }
 
 /// Waits until the frame is due; false where a reader of the page wants to go back.

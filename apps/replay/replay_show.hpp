@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/output_options.hpp"
 #include "common/outputs.hpp"
 #include "common/replay_pace.hpp"
 #include "common/session.hpp"
@@ -23,6 +24,7 @@ struct ShowSource {
   const EstimationConfig& config;
   const std::vector<io::TrueTarget>& truth;
   std::string title;
+  const OutputOptions& outputs;
 };
 
 /// Plays a recording: to the outputs once and in order, and to the page as often as its readers go back.
@@ -48,6 +50,7 @@ class ReplayShow {
   bool play_once(const StopSignal& stop);
   void show(const PendingFrame& frame, bool is_located);
   bool goes_on(HostTime at, const StopSignal& stop);
+  void tell_fleet();
   bool is_seeking(HostTime at) const { return seek_to_ && at < *seek_to_; }
   void begin_anew();
   io::RunRecord record() const;
@@ -61,7 +64,7 @@ class ReplayShow {
   ReplayPace pace_;
   std::size_t posted_ = 0;           // frames that the outputs have
   std::optional<HostTime> seek_to_;  // until there, nothing waits
-  std::optional<std::chrono::steady_clock::time_point> record_shown_at_;
+  std::optional<std::chrono::steady_clock::time_point> record_shown_at_, fleet_told_at_;
 };
 
 }  // namespace geoloc::apps

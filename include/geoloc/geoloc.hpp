@@ -7,6 +7,7 @@
 #include "geoloc/camera/field_of_view.hpp"
 #include "geoloc/fleet/flight_summary.hpp"
 #include "geoloc/fleet/fusion.hpp"
+#include "geoloc/fleet/object_ids.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"

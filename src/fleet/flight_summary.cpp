@@ -17,7 +17,7 @@ constexpr double kMostSigma_m = 1e5, kLeastSigma_m = 1e-6;
 constexpr double kMostMsl_m = 1e4;
 constexpr double kMostWeight = 1e12;  // of a class
 
-bool is_name(const std::string& text) {
+bool is_name(std::string_view text) {
   return text.size() <= FlightSummary::kMostName && std::all_of(text.begin(), text.end(), [](char c) {
            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.' ||
                   c == ':';
@@ -52,7 +52,7 @@ void check_object(const FlightSummary::Object& object, NamedFaults& faults) {
 }
 
 void check_identity(const FlightIdentity& identity, NamedFaults& faults) {
-  faults.require(!identity.flight.empty() && is_name(identity.flight),
+  faults.require(is_flight_name(identity.flight),
                  "the flight's id must be 1 to 64 letters, digits, or any of - _ . :");
   faults.require(is_name(identity.vehicle),
                  "the vehicle's name must be at most 64 letters, digits, or any of - _ . :");
@@ -72,6 +72,10 @@ void check_apart(const FlightSummary& summary, NamedFaults& faults) {
 }
 
 }  // namespace
+
+bool is_flight_name(std::string_view name) {
+  return !name.empty() && is_name(name);
+}
 
 Eigen::Matrix3d FlightSummary::covariance(std::size_t object) const {
   const Eigen::Matrix<double, 3, Eigen::Dynamic> shared = shared_error_of(object);

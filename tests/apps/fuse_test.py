@@ -2,7 +2,7 @@
 import json
 import unittest
 
-from support import AppTest, run
+from support import AppTest, rmse_m, run
 
 FLIGHTS = ("gnss_path1", "gnss_path2", "gnss_path3")
 
@@ -44,6 +44,32 @@ class Fleets(AppTest):
         told = self.fuse(*files, "--out", out).err
         self.assertRegex(told, r"gnss_path2 +quarantined")
         self.assertRegex(told, r"its objects lie -?\d\.\d m east and [3-8]\.\d m north of where the rest of the fleet")
+
+    def test_two_surveyed_objects_take_out_what_all_receivers_are_off_by(self):
+        files = [self.summary(flight, f"{flight}.fs", "--flight-id", flight) for flight in FLIGHTS]
+        truth = self.folder / FLIGHTS[0] / "truth.geojson"
+        without = rmse_m(self.fuse(*files, "--truth", truth, "--out", self.folder / "map.geojson").err)
+        targets = json.loads(truth.read_text())
+        targets["features"] = targets["features"][:20:10]
+        survey = self.write("survey.geojson", targets)
+        out = self.folder / "surveyed.geojson"
+        told = self.fuse(*files, "--truth", truth, "--known-points", survey, "--out", out).err
+        self.assertIn("found 28 / 28", told)  # the two are not scored
+        self.assertLess(rmse_m(told), 0.5 * without)
+        document = json.loads(out.read_text())
+        self.assertEqual(len(document["features"]), 30)
+        for feature in document["features"]:
+            self.assertGreater(feature["properties"]["first_seen"], "2000")
+            self.assertNotEqual(feature["properties"]["flights"], ["known-points"])
+
+    def test_points_that_no_flight_has_seen_are_not_on_the_map(self):
+        file = self.summary(FLIGHTS[0], "one.fs")
+        truth = json.loads((self.folder / FLIGHTS[0] / "truth.geojson").read_text())
+        for feature in truth["features"]:
+            feature["geometry"]["coordinates"][1] += 0.01  # a kilometre
+        told = self.fuse(file, "--known-points", self.write("survey.geojson", truth), "--out", self.folder / "map.geojson").err
+        self.assertRegex(told, "known-points +alone +30 +0 ")
+        self.assertEqual(len(json.loads((self.folder / "map.geojson").read_text())["features"]), 30)
 
     def test_both_forms_of_a_summary_say_the_same(self):
         outs = []

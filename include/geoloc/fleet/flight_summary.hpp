@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,9 @@
 #include "geoloc/tracking/joint_estimate.hpp"
 
 namespace geoloc {
+
+/// Whether flights, and fleets, may be called so: 1 to 64 letters, digits, or any of - _ . :
+bool is_flight_name(std::string_view name);
 
 /// Which flight a summary is of, and which of its summaries it is.
 struct FlightIdentity {

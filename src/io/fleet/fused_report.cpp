@@ -83,6 +83,30 @@ std::vector<ObjectReport> report_objects(const FusedMap& map, const std::vector<
   return reports;
 }
 
+std::vector<FlightReport> report_flights(const FusedMap& map, const Fleet& fleet) {
+  std::vector<FlightReport> reports;
+  for (const FusedFlight& flight : map.flights) {
+    FlightReport report{flight.identity.flight,
+                        flight.identity.vehicle,
+                        flight.identity.sequence,
+                        word_of(flight.verdict),
+                        flight.reason,
+                        flight.common_error_m,
+                        flight.sigma_m,
+                        flight.chi2,
+                        flight.objects,
+                        flight.shared_objects,
+                        {}};
+    if (flight.verdict != FlightVerdict::kTooFar) {
+      const FlightSummary moved = transformed_to(*map.frame, fleet.at(report.flight));
+      for (const FlightSummary::Object& object : moved.objects)
+        report.places_in_enu.emplace_back(object.position_in_enu.head<2>());
+    }
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
 std::string fused_to_geojson(const FusedMap& map, const std::vector<ObjectReport>& objects) {
   auto flights = ordered_json::array(), features = ordered_json::array();
   for (const FusedFlight& flight : map.flights) flights.push_back(flight_to_json(flight));

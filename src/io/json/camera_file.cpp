@@ -1,33 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/json/camera_file.hpp"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "geoloc/io/json/camera_fields.hpp"
+#include "geoloc/io/text_file.hpp"
 #include "io/json/camera_fault.hpp"
 
 namespace geoloc::io {
-
-std::string read_text_file(const std::filesystem::path& file, std::size_t max_bytes) {
-  std::ifstream input(file, std::ios::binary);
-  if (!input || std::filesystem::is_directory(file))
-    throw std::runtime_error(file.string() + ": cannot be opened");
-  std::string text;
-  std::vector<char> chunk(64u << 10);
-  while (input.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || input.gcount() > 0) {
-    text.append(chunk.data(), static_cast<std::size_t>(input.gcount()));
-    if (text.size() > max_bytes) {
-      throw std::runtime_error(file.string() + ": larger than " + std::to_string(max_bytes) + " bytes");
-    }
-  }
-  if (input.bad()) throw std::runtime_error(file.string() + ": cannot be read");
-  return text;
-}
 
 CameraConfig read_camera_file(const std::filesystem::path& file, const CameraConfig& defaults) {
   const std::string text = read_text_file(file);

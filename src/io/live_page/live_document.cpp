@@ -77,6 +77,8 @@ void LiveDocument::add(const RunRecord& run) {
   publish();
   set("targets", page_json::targets(run.targets));
   set("estimator", page_json::estimator(run.estimator));
+  if (!run.flights.empty()) set("flights", page_json::flights(run.flights));
+  if (!run.flights.empty() && run.local_frame) set("anchor", page_json::anchor(run.local_frame->origin()));
   run_.title = run.title;
   run_.summary = run.summary;
   run_.estimator = run.estimator;

@@ -62,7 +62,7 @@ void append(std::string& object, const std::string& name, const std::string& jso
 }
 
 std::string title(const LivePageTitle& title) {
-  return text_of({{"name", title.name}, {"is_live", title.is_live}});
+  return text_of({{"name", title.name}, {"is_live", title.is_live}, {"is_fleet", title.is_fleet}});
 }
 
 std::string status(const LiveStatus& status) {
@@ -77,6 +77,7 @@ std::string status(const LiveStatus& status) {
                   {"video_hz", decimals(status.video_rate_hz, 1)},
                   {"frame_time", status.frame_time},
                   {"warning", status.warning},
+                  {"fleet", status.fleet},
                   {"detect_ms", decimals(status.detect_ms, 1)},
                   {"latency_ms", decimals(status.latency_ms, 1)}});
 }
@@ -132,6 +133,34 @@ std::string anchor(const ViewReport& view) {
   return text_of({{"latitude_deg", view.vehicle.latitude_deg},
                   {"longitude_deg", view.vehicle.longitude_deg},
                   {"at", point(view.vehicle_in_enu.head<2>())}});
+}
+
+std::string anchor(const Geodetic& origin) {
+  return text_of({{"latitude_deg", origin.latitude_deg},
+                  {"longitude_deg", origin.longitude_deg},
+                  {"at", point(Eigen::Vector2d::Zero())}});
+}
+
+std::string flights(const std::vector<FlightReport>& reports) {
+  constexpr std::size_t kMostPlaces = 20'000;  // of all flights; a page draws no more
+  std::size_t places = 0;
+  auto list = ordered_json::array();
+  for (const FlightReport& report : reports) {
+    auto at = ordered_json::array();
+    for (const Eigen::Vector2d& place : report.places_in_enu) {
+      if (places++ < kMostPlaces) at.push_back(point(place));
+    }
+    const Eigen::Vector3d &error = report.common_error_m, &sigma = report.sigma_m;
+    list.push_back({{"flight", report.flight},
+                    {"verdict", report.verdict},
+                    {"reason", report.reason},
+                    {"error_m", {decimals(error.x(), 3), decimals(error.y(), 3), decimals(error.z(), 3)}},
+                    {"sigma_m", {decimals(sigma.x(), 3), decimals(sigma.y(), 3), decimals(sigma.z(), 3)}},
+                    {"objects", report.objects},
+                    {"shared", report.shared_objects},
+                    {"at", std::move(at)}});
+  }
+  return text_of(list);
 }
 
 std::string estimator(const EstimatorReport& report) {

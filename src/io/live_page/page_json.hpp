@@ -29,6 +29,10 @@ std::string settings(const LivePageConfig& config, bool may_change);
 
 /// A position known in both frames, with which the page converts east and north to degrees.
 std::string anchor(const ViewReport& view);
+std::string anchor(const Geodetic& origin);
+
+/// Of a fleet.
+std::string flights(const std::vector<FlightReport>& reports);
 
 /// Appends `"name":value` to an object that is written piece by piece.
 void append(std::string& object, const std::string& name, const std::string& json);

@@ -15,6 +15,7 @@
 #include "geoloc/io/recording/notes_file.hpp"
 #include "geoloc/io/recording/object_pictures.hpp"
 #include "geoloc/io/recording/recording_files.hpp"
+#include "geoloc/io/text_file.hpp"
 #include "io/json/plain_values.hpp"
 
 namespace geoloc::io {

@@ -54,5 +54,20 @@ TEST(FusedReport, TheTableNamesTheQuarantinedFlightAndWhy) {
   EXPECT_NE(table.find("its objects lie", line), std::string::npos) << table;
 }
 
+TEST(FusedReport, FlightsAreReportedWithTheirObjectsWhereTheyHaveThem) {
+  const Fleet fleet = fleet_with_a_poisoned_flight();
+  const FusedMap map = fuse(fleet);
+  const auto reports = report_flights(map, fleet);
+  ASSERT_EQ(reports.size(), 6U);
+  EXPECT_EQ(reports[2].verdict, "quarantined");
+  EXPECT_NE(reports[2].reason, "");
+  for (const FlightReport& report : reports) {
+    const auto& objects = fleet.at(report.flight).objects;
+    ASSERT_EQ(report.places_in_enu.size(), objects.size());
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      EXPECT_LT((report.places_in_enu[i] - objects[i].position_in_enu.head<2>()).norm(), 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace geoloc::io

@@ -118,6 +118,32 @@ TEST(LiveDocument, StaysBoundedOnALongFlight) {
   EXPECT_LE(page.fixes.size(), 3000U);
 }
 
+TEST(LiveDocument, AFleetsMapTellsOfItsFlightsAndFollowsItsFrame) {
+  LiveDocument document({"fleet club", true, true});
+  RunRecord run;
+  run.local_frame.emplace(Geodetic{1.0, 2.0});
+  run.objects = page_frame(1, 2).objects;
+  run.flights.resize(2);
+  run.flights[0].flight = "a";
+  run.flights[0].verdict = "fused";
+  run.flights[0].places_in_enu = {{1.0, 2.0}, {3.0, 4.0}};
+  run.flights[1].verdict = "quarantined";
+  run.flights[1].reason = "</script>";
+  document.add(run);
+  Mirror page;
+  json change = page.take(document);
+  EXPECT_TRUE(change["run"]["is_fleet"]);
+  EXPECT_EQ(page.objects.size(), 2U);
+  EXPECT_EQ(change["flights"][0]["at"], json::parse("[[1, 2], [3, 4]]"));
+  EXPECT_EQ(change["flights"][1]["reason"], "</script>");
+  EXPECT_EQ(change["anchor"]["latitude_deg"], 1.0);
+  run.local_frame.emplace(Geodetic{3.0, 2.0});  // another flight is the first now
+  document.add(run);
+  change = page.take(document);
+  EXPECT_EQ(change["anchor"]["latitude_deg"], 3.0);
+  EXPECT_FALSE(change.contains("flights")) << "they are as they were";
+}
+
 TEST(LiveDocument, HostileNamesStayText) {
   LiveDocument document({"</script>\xff\x01", true});
   OutputFrame frame = page_frame(1, 1);

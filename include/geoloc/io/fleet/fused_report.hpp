@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geoloc/fleet/fusion.hpp"
+#include "geoloc/io/output/flight_report.hpp"
 #include "geoloc/io/output/object_report.hpp"
 
 namespace geoloc::io {
@@ -14,6 +15,9 @@ const char* word_of(FlightVerdict verdict);
 
 /// The fleet's objects as every output reports them; heights are above home where the fleet knows none.
 std::vector<ObjectReport> report_objects(const FusedMap& map, const std::vector<std::string>& class_names);
+
+/// What became of each flight. `fleet`: that the map was made of.
+std::vector<FlightReport> report_flights(const FusedMap& map, const Fleet& fleet);
 
 /// The FeatureCollection of docs/formats.md, with the flights that made it. `objects`: of the map, in its
 /// order.

@@ -15,8 +15,4 @@ CameraConfig read_camera_file(const std::filesystem::path& file, const CameraCon
 /// The YAML alone; `name` stands for the file in messages.
 CameraConfig camera_from_yaml(const std::string& text, const std::string& name, const CameraConfig& defaults);
 
-/// Whole file as text. Throws std::runtime_error naming it if it cannot be read or is larger than
-/// `max_bytes`.
-std::string read_text_file(const std::filesystem::path& file, std::size_t max_bytes = 16u << 20);
-
 }  // namespace geoloc::io

@@ -22,8 +22,9 @@ namespace geoloc::io {
 
 /// What the page shows about a run before anything has happened.
 struct LivePageTitle {
-  std::string name;     ///< of the run: the stream, or the recording
-  bool is_live = true;  ///< otherwise a recording is replayed
+  std::string name;       ///< of the run: the stream, or the recording
+  bool is_live = true;    ///< otherwise a recording is replayed
+  bool is_fleet = false;  ///< many flights' map, without a video or a vehicle of its own
 };
 
 /// A run in figures, for those who watch many.

@@ -23,6 +23,7 @@ struct LiveStatus {
   std::string frame_time;   ///< where capture times come from: "recovered", "arrival"
   std::string clock;        ///< what the clocks last did that they should not, or empty
   std::string warning;      ///< what is wrong with the frames, or empty
+  std::string fleet;        ///< how the flight's summaries get to its fleet; empty: it has none
   double detect_ms = 0.0;   ///< of one frame, mean
   double latency_ms = 0.0;  ///< from capture to result, mean
   std::uint64_t frames = 0;

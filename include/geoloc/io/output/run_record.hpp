@@ -2,14 +2,18 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "geoloc/fleet/flight_summary.hpp"
+#include "geoloc/fleet/fusion.hpp"
+#include "geoloc/fleet/object_ids.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/io/output/estimator_report.hpp"
+#include "geoloc/io/output/flight_report.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/io/output/raw_fixes.hpp"
 
@@ -34,6 +38,10 @@ struct RunRecord {
   std::vector<Eigen::Vector2d> targets;  ///< true positions [m], where they are known
   /// For fusion with other flights: where it is asked for, and known.
   std::optional<FlightSummary> flight_summary;
+  /// Of a fleet, whose objects these are; otherwise empty, and nullptr.
+  std::vector<FlightReport> flights;
+  std::shared_ptr<const FusedMap> fused_map;
+  std::shared_ptr<const ObjectIds> object_ids;
 };
 
 }  // namespace geoloc::io

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the map draws, layer by layer. `pen` holds the canvas's context, the viewport and the colours.
+import { drawFlights } from "./fleet.js";
 import { roundStep } from "./projection.js";
 
 const FADE_MS = 45000; // a raw fix fades over this time
@@ -18,6 +19,7 @@ export const LAYERS = [
   { key: "path", name: "trajectory", on: true },
   { key: "footprint", name: "camera's footprint", on: true },
   { key: "targets", name: "true target", on: true },
+  { key: "flights", name: "where a flight has it, by its colour", on: true },
 ];
 
 export function drawGrid(pen) {
@@ -239,6 +241,7 @@ export function drawSymbol(pen, key) {
     path: () => drawPath(pen, [[-9, -3], [-2, 3], [3, -2], [9, 3]], null),
     footprint: () => drawFootprint(pen, [[-8, 6], [8, 6], [8, -6], [-8, -6]]),
     targets: () => drawTargets(pen, [[0, 0]]),
+    flights: () => drawFlights(pen, [{ verdict: "fused", at: [[-4, 0]] }, { verdict: "quarantined", at: [[5, 0]] }]),
   };
   draw[key]();
 }

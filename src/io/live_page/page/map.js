@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map: a canvas with a metric grid that is moved and zoomed by mouse, touch and keys.
+import { drawFlights } from "./fleet.js";
 import * as layers from "./layers.js";
 import * as marks from "./marks.js";
 import { Viewport, toDegrees, typical } from "./projection.js";
@@ -106,6 +107,7 @@ export class GroundMap extends EventTarget {
     if (this.visible("footprint") && model.view?.footprint) layers.drawFootprint(pen, model.view.footprint);
     if (this.visible("path")) layers.drawPath(pen, model.path, model.view?.vehicle);
     if (this.visible("targets")) layers.drawTargets(pen, model.targets);
+    if (this.visible("flights")) drawFlights(pen, model.flights);
     this.drawObjects(pen, now);
     if (this.own) marks.drawOwnPlace(pen, this.own);
     if (model.view) marks.drawVehicle(pen, model.view);

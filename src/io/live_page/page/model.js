@@ -24,6 +24,7 @@ export class Model extends EventTarget {
     this.view = null;
     this.estimator = null;
     this.targets = [];
+    this.flights = [];
     this.picture = 0;
     this.playback = null;
     this.objects = new Map();
@@ -38,7 +39,7 @@ export class Model extends EventTarget {
       this.reset();
       this.run = change.run;
     }
-    for (const key of ["anchor", "ended", "status", "view", "estimator", "targets", "picture", "playback"]) {
+    for (const key of ["anchor", "ended", "status", "view", "estimator", "targets", "flights", "picture", "playback"]) {
       if (key in change) this[key] = change[key];
     }
     const confirmed = this.takeObjects(change.objects, change.run || change.playback?.seeking ? -Infinity : performance.now());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connects the parts of the page.
 import { Details } from "./details.js";
+import { showFlights } from "./fleet.js";
 import { LAYERS } from "./layers.js";
 import { GroundMap } from "./map.js";
 import { showMeanings } from "./meanings.js";
@@ -34,8 +35,14 @@ const list = new ObjectList({
   filters: { class: get("class-filter"), sigma: get("sigma-filter") },
 }, model, (id) => map.select(id));
 
+/** A fleet has no camera; a run has no flights. */
+function isInRun({ key }) {
+  if (key === "targets" || key === "flights") return model[key].length > 0;
+  return !model.run.is_fleet || ["objects", "ellipses"].includes(key);
+}
+
 function showLegend() {
-  get("layers").replaceChildren(...LAYERS.filter((layer) => layer.key !== "targets" || model.targets.length > 0).map((layer) => {
+  get("layers").replaceChildren(...LAYERS.filter(isInRun).map((layer) => {
     const box = panels.element("input", { type: "checkbox", checked: shown[layer.key] });
     box.addEventListener("change", () => {
       shown[layer.key] = box.checked;
@@ -58,9 +65,11 @@ function waysTo(object) {
 function showLists() {
   map.own = own.at();
   list.show(map.selected, map.own);
+  showFlights(get("flights-card"), get("flights"), model.flights);
   panels.showRates(get("rates-card"), get("rates"), model);
   panels.showCalibration(get("calibration-card"), get("calibration"), model.estimator?.calibration);
-  panels.showCounters(get("counters"), model.estimator?.counters);
+  if (!model.run.is_fleet) panels.showCounters(get("counters"), model.estimator?.counters);
+  get("counters-card").hidden = model.run.is_fleet === true;
   const selected = model.objects.get(map.selected);
   if (selected) details.show(selected, waysTo(selected));
   else details.hide();
@@ -87,13 +96,14 @@ function showReadout() {
 }
 
 let listsDue = 0;
-let targets = 0;
+let legend = "";
 model.addEventListener("change", () => {
   map.redraw();
   showState();
   video.update(model.picture, model.run.is_live && !model.ended);
-  if (model.targets.length !== targets) {
-    targets = model.targets.length;
+  const layers = LAYERS.filter(isInRun).map(({ key }) => key).join();
+  if (layers !== legend) {
+    legend = layers;
     showLegend();
   }
   if (!listsDue) {

@@ -47,12 +47,14 @@ export function figures(list, entries) {
 export function showLights(list, model) {
   const { status, connection, ended, run } = model;
   const lights = [];
-  if (run.is_live) {
+  if (run.is_fleet) {
+    if (run.is_live) lights.push(["broker", status?.link_is_good ? "" : "bad", status?.link_is_good ? "Broker" : "No broker"]);
+  } else if (run.is_live) {
     lights.push(["link", status?.link_is_good ? "" : "bad", status ? shortLink(status) : "Link"]);
     lights.push(["video", status?.video_is_good ? "" : "bad",
       status?.video_is_good ? `Video ${number(status.video_hz, 0)}/s` : `Video ${status?.video_state ?? ""}`]);
   }
-  const page = { live: run.is_live ? "Live" : "Replay", lost: "No answer", connecting: "Connecting" }[connection];
+  const page = { live: run.is_live ? "Live" : run.is_fleet ? "Fleet" : "Replay", lost: "No answer", connecting: "Connecting" }[connection];
   lights.push(["page", connection === "lost" ? "bad" : ended ? "off" : "", ended ? "Run ended" : page]);
   list.replaceChildren(...lights.map(([id, state, text]) =>
     element("li", { id: `light-${id}`, className: state, textContent: text })));
@@ -72,8 +74,8 @@ export function trouble(model) {
     .filter(Boolean).join(" · ");
 }
 
-export function showRates(card, list, { status, view }) {
-  card.hidden = !status && !view;
+export function showRates(card, list, { status, view, run }) {
+  card.hidden = (!status && !view) || run.is_fleet === true;
   const own = [["Vehicle's height", `${number(view?.height_m, 1)} m`],
     ["Heading", `${number(Math.round(view?.yaw_deg + 360) % 360, 0)}°`]];
   figures(list, !status ? own : [
@@ -84,6 +86,7 @@ export function showRates(card, list, { status, view }) {
     ["Frame times", status.frame_time],
     ["Detection", `${number(status.detect_ms, 0)} ms`],
     ["Capture to result", `${number(status.latency_ms, 0)} ms`],
+    ...(status.fleet ? [["Fleet", status.fleet.replace("fleet: ", "")]] : []),
   ]);
 }
 
