@@ -5,7 +5,7 @@
 #include <chrono>
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/output/cot_event.hpp"
 
 namespace geoloc::io {
@@ -28,7 +28,7 @@ std::string whole_seconds(HostTime time) {
 
 CotSink::CotSink(std::string target, const CotConfig& config, const CotConnection::Tell& tell)
     : target_(std::move(target)), config_(config), connection_(parse_cot_endpoint(target_), config, tell) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
 }
 
 void CotSink::on_frame(const OutputFrame& frame) {
