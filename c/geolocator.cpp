@@ -43,6 +43,17 @@ geoloc_status write_all(const Source& source, Structure* target, std::size_t cap
   return GEOLOC_OK;
 }
 
+/// BadSetting for settings that `use` refuses.
+template <typename Use>
+void with_settings(const geoloc_config* config, const Use& use) {
+  const GeolocatorConfig& settings = required(config, "config").settings;
+  try {
+    use(settings);
+  } catch (const std::invalid_argument& error) {
+    throw BadSetting(error.what());
+  }
+}
+
 /// For what cannot be asked before the first position; BadArgument for a place that is none.
 template <typename Body>
 geoloc_status in_local_frame(const geoloc_geolocator* geolocator, const Body& body) {
@@ -61,16 +72,24 @@ extern "C" {
 
 using namespace geoloc::c;
 
+geoloc_status geoloc_memory_needed(const geoloc_config* config, size_t* bytes) {
+  return guarded([&] {
+    size_t& result = required(bytes, "bytes");
+    result = 0;
+    with_settings(config, [&](const geoloc::GeolocatorConfig& settings) {
+      result = geoloc_geolocator::bytes(settings);
+    });
+    return GEOLOC_OK;
+  });
+}
+
 geoloc_status geoloc_create(const geoloc_config* config, geoloc_geolocator** geolocator) {
   return guarded([&] {
     geoloc_geolocator*& result = required(geolocator, "geolocator");
     result = nullptr;
-    const geoloc::GeolocatorConfig& settings = required(config, "config").settings;
-    try {
+    with_settings(config, [&](const geoloc::GeolocatorConfig& settings) {
       result = std::make_unique<geoloc_geolocator>(settings).release();
-    } catch (const std::invalid_argument& error) {
-      throw BadSetting(error.what());
-    }
+    });
     return GEOLOC_OK;
   });
 }

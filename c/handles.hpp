@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "geoloc/geoloc.h"
 #include "geoloc/geoloc.hpp"
 
@@ -11,6 +13,12 @@ struct geoloc_config {
 struct geoloc_geolocator {
   explicit geoloc_geolocator(const geoloc::GeolocatorConfig& settings) : estimator(settings) {
     frame.detections.reserve(settings.max_detections);
+  }
+
+  /// Of the heap.
+  static std::size_t bytes(const geoloc::GeolocatorConfig& settings) {
+    return geoloc::Geolocator::memory_needed(settings) + sizeof(geoloc_geolocator) +
+           settings.max_detections * sizeof(geoloc::Detection);
   }
 
   geoloc::Geolocator estimator;

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME dev)  # what is not said to be of lib or programs (GeolocPackages.cmake)
 
 set(_package "${CMAKE_INSTALL_LIBDIR}/cmake/geoloc")
-install(TARGETS geoloc EXPORT geoloc ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS geoloc EXPORT geoloc ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(FILES "${PROJECT_SOURCE_DIR}/include/geoloc/geoloc.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/geoloc")
 set(_public_modules calibration camera fleet geometry pipeline projection state tracking)
 foreach(_module IN LISTS _public_modules)

@@ -48,10 +48,16 @@ function(geoloc_optimise_lightly)
 endfunction()
 
 # geoloc_add_library(geoloc_io_mavlink ALIAS io_mavlink SOURCES a.cpp … PUBLIC libs… PRIVATE libs…)
-# makes the static library and its name geoloc::io_mavlink.
+# makes the static library and its name geoloc::io_mavlink. OR_SHARED: shared where BUILD_SHARED_LIBS says so; C++ has no stable
+# binary interface, so that its SONAME is the whole version.
 function(geoloc_add_library target)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "ALIAS" "SOURCES;PUBLIC;PRIVATE")
-  add_library(${target} STATIC ${arg_SOURCES})
+  cmake_parse_arguments(PARSE_ARGV 1 arg "OR_SHARED" "ALIAS" "SOURCES;PUBLIC;PRIVATE")
+  if(arg_OR_SHARED AND BUILD_SHARED_LIBS)
+    add_library(${target} SHARED ${arg_SOURCES})
+    set_target_properties(${target} PROPERTIES VERSION "${PROJECT_VERSION}" SOVERSION "${PROJECT_VERSION}")
+  else()
+    add_library(${target} STATIC ${arg_SOURCES})
+  endif()
   add_library(geoloc::${arg_ALIAS} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${arg_ALIAS})
   geoloc_set_flags(${target})

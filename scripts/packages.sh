@@ -17,6 +17,7 @@ RUN_PACKAGES=(
 )
 FLEET_SERVERS=(mosquitto postgresql-postgis)  # a broker and a database, for the fleet demo and the tests
 TEST_PACKAGES=("${FLEET_SERVERS[@]}" git chromium dpkg-dev file python3-dev libgtest-dev libbenchmark-dev gdal-bin libimage-exiftool-perl openssl)
+SITE_PACKAGES=(git python3 python3-venv doxygen)
 LINT_PACKAGES=(clang clang-format clang-tidy libclang-rt-dev)
 OPENVINO_VERSION=2026.4.1  # on PyPI
 

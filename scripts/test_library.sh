@@ -24,6 +24,12 @@ if grep -iE '^[a-z_]*(opencv|gstreamer|rtsp)' "$build/CMakeCache.txt" | grep -v 
   echo "The library alone looks for what only io and sim need" >&2
   exit 1
 fi
+# Without exceptions it is built by scripts/test_onboard.sh, which takes longer: what that would trip over is seen here.
+if grep -nwE 'throw|try|catch|dynamic_cast|typeid' -r --include='*.[ch]pp' src/{calibration,camera,fleet,geometry,pipeline,projection,settings,state,tracking} \
+  include/geoloc/{calibration,camera,fleet,geometry,pipeline,projection,state,tracking} | grep -vE ':[0-9]+: *//|^src/geometry/refuse.cpp:'; then
+  echo "The library refuses by refuse() alone (geometry/refuse.hpp)" >&2
+  exit 1
+fi
 say "Building ($build)"
 cmake --build "$build"
 say "Testing ($build)"

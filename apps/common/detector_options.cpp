@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "common/data_files.hpp"
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "io/detection/detection_fields.hpp"
 #include "settings/field_checker.hpp"
 
@@ -82,7 +82,7 @@ io::DetectionConfig detection_of(const DetectorOptions& options, const DetectorT
     config.input_height_px = tuning.input_size_px[1];
   }
   if (!tuning.layout.empty()) config.layout = layout_named(tuning.layout);
-  throw_if_any(check_fields(config, "detection"));
+  refuse_if_any(check_fields(config, "detection"));
   return config;
 }
 

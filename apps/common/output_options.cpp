@@ -14,6 +14,7 @@
 #include "geoloc/io/output/json_lines_sink.hpp"
 #include "geoloc/io/output/kml.hpp"
 #include "geoloc/io/output/raw_fixes.hpp"
+#include "geoloc/io/output/rosbag.hpp"
 #include "geoloc/io/output/run_picture.hpp"
 
 namespace geoloc::apps {
@@ -109,6 +110,7 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
   add_several(program, "--jsonl", options.jsonl, "Frames and objects as they come, JSON Lines; - is stdout",
               "FILE");
   add_file(program, "--raw", options.raw, "Every located detection, CSV");
+  add_file(program, "--rosbag", options.rosbag, "Trajectory, raw fixes and objects as a bag of ROS 2, MCAP");
   add_file(program, "--summary", options.summary,
            "All that the flight knows of its objects, for geoloc_fuse; JSON where the name ends in .json");
   program
@@ -128,6 +130,7 @@ NamedFiles files_of(const OutputOptions& options) {
   add_named(files, "--csv", options.csv);
   add_named(files, "--kml", options.kml);
   add_named(files, "--picture", options.picture);
+  add_named(files, "--rosbag", options.rosbag);
   add_named(files, "--summary", options.summary);
   for (const std::string& target : options.jsonl) {
     if (target != "-") add_named(files, "--jsonl", target);
@@ -164,6 +167,7 @@ void add_sinks(const OutputOptions& options, const EstimationConfig& config, io:
   for (const std::string& target : options.cot)
     outputs.add(std::make_unique<io::CotSink>(target, config.cot, outputs.teller()));
   add("--picture", options.picture, [](const io::RunRecord& run) { return io::to_svg(io::picture_of(run)); });
+  add("--rosbag", options.rosbag, io::run_to_rosbag);
   check_summary(options, config);
   add("--summary", options.summary, [is_json = ends_in_json(options.summary)](const io::RunRecord& run) {
     return summary_text(run, is_json);

@@ -19,6 +19,7 @@ struct OutputOptions {
   std::string objects;             ///< GeoJSON
   std::string raw;                 ///< CSV of every located detection
   std::string picture;             ///< SVG
+  std::string rosbag;              ///< MCAP
   std::string http;                ///< [HOST:]PORT of the live page
   std::string http_token;          ///< file of the token that the live page asks for; empty: it asks for none
   std::string map;                 ///< file of the page's background map
@@ -37,14 +38,15 @@ struct OutputOptions {
   bool wants_summary() const { return !summary.empty() || !mqtt.url.empty(); }
 
   /// Whether a file shows the raw fixes.
-  bool wants_raw_fixes() const { return !raw.empty() || !picture.empty(); }
+  bool wants_raw_fixes() const { return !raw.empty() || !picture.empty() || !rosbag.empty(); }
 };
 
 /// Outputs of objects, whether of a run or of a fleet: --out, --csv, --kml, --cot, --picture, --http,
 /// --http-token, --map.
 void add_object_outputs(CLI::App& program, OutputOptions& options);
 
-/// These, and the outputs of a run: --jsonl, --raw, --summary, --flight-id, --mqtt and what belongs to it.
+/// These, and the outputs of a run: --jsonl, --raw, --rosbag, --summary, --flight-id, --mqtt and what belongs
+/// to it.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
 /// Those of them that are files, for check_outputs().

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/sim/flight/recording_generator.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/sim/live/rangefinder.hpp"
@@ -62,7 +62,7 @@ int run_record_mode(const RunOptions& run, const RecordOptions& options, std::ui
   std::optional<Flight> flight;
   try {
     settings = {to_settings(run, seed), options.detector, options.terrain};
-    throw_if_any(settings.problems());
+    refuse_if_any(settings.problems());
     if (run.has_sei && !options.has_video)
       throw std::invalid_argument("--sei: a recording without --video has no frames to carry the telemetry");
     if (std::filesystem::exists(options.folder)) {

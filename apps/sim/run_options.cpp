@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/sim/live/flight_variants.hpp"
 #include "geoloc/sim/live/px4_flight.hpp"
 #include "geoloc/sim/live/state_jumps.hpp"
@@ -29,7 +29,7 @@ std::optional<ZoomSettings> zoom_settings(const std::string& text) {
     return value;
   };
   const ZoomSettings settings{number(text.substr(0, dots)), number(text.substr(dots + 2))};
-  throw_if_any(settings.problems());
+  refuse_if_any(settings.problems());
   return settings;
 }
 
@@ -136,7 +136,7 @@ RunSettings to_settings(const RunOptions& options, std::uint64_t seed) {
   settings.camera.intrinsics.distortion = options.distortion;
   if (to_settings(options.gimbal)) settings.camera.mount = CameraMount::on_gimbal();
   settings.errors.lens_is_calibrated = !options.uncalibrated_lens;
-  throw_if_any(settings.problems());
+  refuse_if_any(settings.problems());
   return settings;
 }
 

@@ -77,6 +77,8 @@ geoloc_status geoloc_config_set_terrain(geoloc_config *config, const geoloc_heig
 /* ---- The estimator ---- */
 
 typedef struct geoloc_geolocator geoloc_geolocator; /* one thread at a time calls it */
+/* What geoloc_create() will ask of the heap, without what the heap adds of its own; fails as that does. Takes none of it. */
+geoloc_status geoloc_memory_needed(const geoloc_config *config, size_t *bytes);
 /* Takes all its memory. GEOLOC_INVALID_SETTING: geoloc_last_error() names every fault. The configuration may be destroyed. */
 geoloc_status geoloc_create(const geoloc_config *config, geoloc_geolocator **geolocator);
 void geoloc_destroy(geoloc_geolocator *geolocator); /* NULL does nothing */

@@ -222,6 +222,10 @@ class Estimator {
 }  // namespace
 
 void bind_geolocator(nb::module_& module) {
+  module.def(
+      "memory_needed",
+      [](const std::string& settings_json) { return Geolocator::memory_needed(config_from(settings_json)); },
+      nb::arg("settings_json"));
   nb::class_<Estimator>(module, "Estimator")
       .def(nb::init<const std::string&>(), nb::arg("settings_json"))
       .def("add_attitudes", &Estimator::add_attitudes, nb::arg("times_ns"), nb::arg("angles_rad"),

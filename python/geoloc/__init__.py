@@ -8,7 +8,7 @@ docs/python.md has examples.
 
 from . import _core
 from ._fleet import FlightSummary, FusedFlight, FusedMap, fuse
-from ._geolocator import Geolocator
+from ._geolocator import Geolocator, memory_needed
 from ._recording import Frame, Recording, Result, evaluate, replay
 from ._results import Calibration, Fate, Outcome, Score
 from ._rows import FIX, FUSED_OBJECT, OBJECT, RAW_FIX, SUMMARY_OBJECT, TRAJECTORY
@@ -36,5 +36,6 @@ __all__ = [
     "__version__",
     "evaluate",
     "fuse",
+    "memory_needed",
     "replay",
 ]

@@ -44,6 +44,14 @@ def _column(values: npt.ArrayLike, count: int, dtype: npt.DTypeLike, name: str) 
     return np.ascontiguousarray(np.broadcast_to(array, (count,)))
 
 
+def memory_needed(settings: Mapping[str, Any] | None = None, **more: Any) -> int:
+    """What a `Geolocator` of these settings will ask of the heap when it is made [bytes], without what Python keeps about it.
+
+    Takes none of it: to be asked before. Settings and errors are those of `Geolocator`.
+    """
+    return _core.memory_needed(settings_json(settings, more))
+
+
 class Geolocator:
     """Telemetry and a detector's boxes in, objects on the ground out; MAVLink is not needed.
 

@@ -8,6 +8,7 @@
 
 #include "calibration/settled_sums.hpp"
 #include "geoloc/geometry/angles.hpp"
+#include "geometry/room.hpp"
 
 namespace geoloc {
 namespace {
@@ -17,8 +18,12 @@ using UpAndYaw = Eigen::Vector2d;  // of a node
 /// Stands for "exactly known": keeps the information finite.
 constexpr double kLeastSigma = 1e-9;
 
+int most_nodes(const DriftConfig& drift) {
+  return drift.max_nodes + 2;
+}
+
 Eigen::Index room_for(const DriftConfig& drift) {
-  return HeadLayout{0, static_cast<std::uint32_t>(drift.max_nodes) + 2, 0,
+  return HeadLayout{0, static_cast<std::uint32_t>(most_nodes(drift)), 0,
                     static_cast<std::uint32_t>(drift.max_spells) + 2}
       .size();
 }
@@ -30,13 +35,8 @@ HeadLayout layout_of(const DriftTimeline& drift) {
 }  // namespace
 
 ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift)
-    : position_prior_(drift.max_nodes + 2),
-      information_(room_for(drift)),
-      right_hand_side_(room_for(drift)),
-      sensitivities_(kPointSize, room_for(drift)),
-      B_(kPointSize, room_for(drift)),
-      gain_(kPointSize, room_for(drift)) {
-  runs_.reserve(Landmark::kMaxNodes + Landmark::kMaxSpells + 1);
+    : position_prior_(most_nodes(drift)), information_(room_for(drift)) {
+  take_room(this, drift);
   const double focal_ratio = 1.0 + 0.01 * prior.focal_percent;
   prior_mean_ << prior.boresight_x_deg * kRadPerDeg, prior.boresight_y_deg * kRadPerDeg,
       prior.boresight_z_deg * kRadPerDeg, prior.latency_s, 0.0, std::log(focal_ratio), prior.position_lag_s,
@@ -44,6 +44,16 @@ ArrowheadSolver::ArrowheadSolver(const CalibrationPrior& prior, const DriftConfi
   prior_sigma_ << prior.sigma_boresight_x_deg * kRadPerDeg, prior.sigma_boresight_y_deg * kRadPerDeg,
       prior.sigma_boresight_z_deg * kRadPerDeg, prior.sigma_latency_s, 0.0,
       0.01 * prior.sigma_focal_percent / focal_ratio, prior.sigma_position_lag_s, 0.0, 0.0;
+}
+
+std::size_t ArrowheadSolver::take_room(ArrowheadSolver* self, const DriftConfig& drift) {
+  const Eigen::Index size = room_for(drift);
+  return PositionPrior::take_room(nullptr, most_nodes(drift)) + EnvelopeCholesky::take_room(nullptr, size) +
+         room::resize(self, &ArrowheadSolver::right_hand_side_, size) +
+         room::resize(self, &ArrowheadSolver::sensitivities_, kPointSize, size) +
+         room::resize(self, &ArrowheadSolver::B_, kPointSize, size) +
+         room::resize(self, &ArrowheadSolver::gain_, kPointSize, size) +
+         room::reserve(self, &ArrowheadSolver::runs_, Landmark::kMaxNodes + Landmark::kMaxSpells + 1);
 }
 
 Calibration ArrowheadSolver::prior(const FlightPrior& flight) const {

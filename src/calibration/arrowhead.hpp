@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -99,6 +100,8 @@ class ArrowheadSolver {
 
   /// Room for as many nodes and spells as `drift` allows.
   ArrowheadSolver(const CalibrationPrior& prior, const DriftConfig& drift);
+  /// geometry/room.hpp
+  static std::size_t take_room(ArrowheadSolver* self, const DriftConfig& drift);
 
   /// Solves for the head with the objects' sums. nullopt where rounding has left no solution.
   /// `heights`: what is known of the camera's height besides. `settled`: what objects tell that are not among

@@ -6,13 +6,19 @@
 #include <limits>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geometry/room.hpp"
 
 namespace geoloc {
 
 DriftTimeline::DriftTimeline(const DriftConfig& config) : config_(config), sway_(config) {
+  take_room(this, config);
+}
+
+std::size_t DriftTimeline::take_room(DriftTimeline* self, const DriftConfig& config) {
   std::size_t length = 1;
   while (length < static_cast<std::size_t>(config.max_nodes) + 2) length *= 2;
-  nodes_.resize(length);
+  return room::resize(self, &DriftTimeline::nodes_, length) + SwayTimeline::take_room(nullptr) +
+         NodeHistory::take_room(nullptr);
 }
 
 NodeSpan DriftTimeline::cover(VehicleTime time, double sigma_position_m) {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -60,6 +61,8 @@ struct ThinnedNode {
 class DriftTimeline {
  public:
   explicit DriftTimeline(const DriftConfig& config);
+  /// geometry/room.hpp
+  static std::size_t take_room(DriftTimeline* self, const DriftConfig& config);
 
   /// Nodes around `time`, made if need be. sigma_position_m: 1-sigma per axis of the wandering, as believed
   /// now. Times run forward; where one runs back (the vehicle rebooted) the drift begins anew.

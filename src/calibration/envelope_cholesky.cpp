@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "calibration/row_kernels.hpp"
+#include "geometry/room.hpp"
 
 namespace geoloc {
 namespace {
@@ -16,9 +17,16 @@ std::array<const double*, 3> from_column(const EnvelopeCholesky::Rows& rows, Eig
 }  // namespace
 
 EnvelopeCholesky::EnvelopeCholesky(Eigen::Index max_size) {
-  rows_.setZero(max_size, max_size);
-  first_.setZero(max_size);
-  inverse_diagonal_.setZero(max_size);
+  take_room(this, max_size);
+  rows_.setZero();
+  first_.setZero();
+  inverse_diagonal_.setZero();
+}
+
+std::size_t EnvelopeCholesky::take_room(EnvelopeCholesky* self, Eigen::Index max_size) {
+  return room::resize(self, &EnvelopeCholesky::rows_, max_size, max_size) +
+         room::resize(self, &EnvelopeCholesky::first_, max_size) +
+         room::resize(self, &EnvelopeCholesky::inverse_diagonal_, max_size);
 }
 
 void EnvelopeCholesky::reset(Eigen::Index size) {

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 
 namespace geoloc {
 
@@ -15,6 +16,8 @@ class EnvelopeCholesky {
   using Rows = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>;
 
   explicit EnvelopeCholesky(Eigen::Index max_size);
+  /// geometry/room.hpp
+  static std::size_t take_room(EnvelopeCholesky* self, Eigen::Index max_size);
 
   /// A matrix of zeros to be added to, with an empty envelope. size: at most max_size.
   void reset(Eigen::Index size);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "calibration/drift.hpp"
+#include "geometry/room.hpp"
 
 namespace geoloc {
 
@@ -31,7 +32,11 @@ class HeightLog {
   HeightLog() = default;
 
   /// Room for so many nodes.
-  explicit HeightLog(int max_nodes) { observations_.reserve(static_cast<std::size_t>(max_nodes) + 2); }
+  explicit HeightLog(int max_nodes) { take_room(this, max_nodes); }
+  /// geometry/room.hpp
+  static std::size_t take_room(HeightLog* self, int max_nodes) {
+    return room::reserve(self, &HeightLog::observations_, static_cast<std::size_t>(max_nodes) + 2);
+  }
 
   /// `span`: that of the newest nodes.
   void add(const NodeSpan& span, double value_m, double variance_m2);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calibration/node_history.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
+
+#include "geometry/room.hpp"
 
 namespace geoloc {
 namespace {
@@ -31,7 +34,15 @@ void substitute(std::uint32_t gone, const NodeHistory::Blend& by, NodeHistory::B
 
 }  // namespace
 
-NodeHistory::NodeHistory() : fates_(kRemembered), chains_(kRemembered, kNone) {}
+NodeHistory::NodeHistory() {
+  take_room(this);
+  std::fill(chains_.begin(), chains_.end(), kNone);
+}
+
+std::size_t NodeHistory::take_room(NodeHistory* self) {
+  return room::resize(self, &NodeHistory::fates_, kRemembered) +
+         room::resize(self, &NodeHistory::chains_, kRemembered);
+}
 
 void NodeHistory::replace(std::uint32_t serial, const Blend& by) {
   for (Fate& fate : fates_) substitute(serial, by, fate.blend);

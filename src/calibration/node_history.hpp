@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -31,6 +32,8 @@ class NodeHistory {
   };
 
   NodeHistory();
+  /// geometry/room.hpp
+  static std::size_t take_room(NodeHistory* self);
 
   /// How many nodes were made.
   std::uint32_t size() const { return size_; }

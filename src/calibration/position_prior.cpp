@@ -5,11 +5,22 @@
 #include <cstdint>
 #include <utility>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 
-PositionPrior::PositionPrior(Eigen::Index max_nodes) : mean_(Eigen::VectorXd::Zero(max_nodes)) {
-  for (Matrix* const matrix : {&covariance_, &root_, &whitening_, &information_})
-    matrix->setZero(max_nodes, max_nodes);
+PositionPrior::PositionPrior(Eigen::Index max_nodes) {
+  take_room(this, max_nodes);
+  mean_.setZero();
+  for (Matrix* const matrix : {&covariance_, &root_, &whitening_, &information_}) matrix->setZero();
+}
+
+std::size_t PositionPrior::take_room(PositionPrior* self, Eigen::Index max_nodes) {
+  std::size_t bytes = room::resize(self, &PositionPrior::mean_, max_nodes);
+  for (Matrix PositionPrior::*const matrix : {&PositionPrior::covariance_, &PositionPrior::root_,
+                                              &PositionPrior::whitening_, &PositionPrior::information_})
+    bytes += room::resize(self, matrix, max_nodes, max_nodes);
+  return bytes;
 }
 
 void PositionPrior::form(const DriftTimeline& drift, int component) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 #include "calibration/drift.hpp"
 
@@ -15,6 +16,8 @@ class PositionPrior {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   explicit PositionPrior(Eigen::Index max_nodes);
+  /// geometry/room.hpp
+  static std::size_t take_room(PositionPrior* self, Eigen::Index max_nodes);
 
   /// Forms the prior of component 0 (east) or 1 (north), for the nodes that are estimated. What was formed
   /// last is kept where the covariance is the same, as it mostly is for both components and from one solution

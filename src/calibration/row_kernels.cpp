@@ -17,8 +17,8 @@ double dot_of_rows(const double* x, const double* y, std::size_t size) {
   Lanes even = {}, odd = {};  // two sums that do not wait for each other
   std::size_t i = 0;
   for (; i + 2 * kLanes <= size; i += 2 * kLanes) {
-    even += lanes(x + i) * lanes(y + i);
-    odd += lanes(x + i + kLanes) * lanes(y + i + kLanes);
+    even += lanes(x + i).value * lanes(y + i).value;
+    odd += lanes(x + i + kLanes).value * lanes(y + i + kLanes).value;
   }
   double rest = 0.0;
   for (; i < size; ++i) rest += x[i] * y[i];
@@ -30,9 +30,9 @@ std::array<double, 3> dots_of_rows(const double* x, const std::array<const doubl
   Lanes first = {}, second = {}, third = {};
   std::size_t i = 0;
   for (; i + kLanes <= size; i += kLanes) {
-    first += lanes(x + i) * lanes(y[0] + i);
-    second += lanes(x + i) * lanes(y[1] + i);
-    third += lanes(x + i) * lanes(y[2] + i);
+    first += lanes(x + i).value * lanes(y[0] + i).value;
+    second += lanes(x + i).value * lanes(y[1] + i).value;
+    third += lanes(x + i).value * lanes(y[2] + i).value;
   }
   const Lanes sums[] = {first, second, third};
   std::array<double, 3> dots;

@@ -4,6 +4,8 @@
 #include <Eigen/LU>
 #include <numeric>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -17,18 +19,24 @@ std::size_t most_places(const DriftConfig& drift) {
 }  // namespace
 
 SettledSums::SettledSums(const DriftConfig& drift) {
-  const std::size_t places = most_places(drift);
-  const Eigen::Index size = offset(static_cast<int>(places));
-  matrix_.setZero(size, size);
-  vector_.setZero(size);
-  are_coupled_.setConstant(static_cast<Eigen::Index>(places), static_cast<Eigen::Index>(places), false);
-  nodes_.places.reserve(places);
-  spells_.places.reserve(places);
-  free_.reserve(places);
-  columns_.reserve(places);
-  B_.setZero(kPointSize, size);
-  places_of_B_.reserve(places);
+  take_room(this, drift);
+  B_.setZero();
   clear();
+}
+
+std::size_t SettledSums::take_room(SettledSums* self, const DriftConfig& drift) {
+  const std::size_t places = most_places(drift);
+  const auto blocks = static_cast<Eigen::Index>(places);
+  const Eigen::Index size = offset(static_cast<int>(places));
+  return room::resize(self, &SettledSums::matrix_, size, size) +
+         room::resize(self, &SettledSums::vector_, size) +
+         room::resize(self, &SettledSums::are_coupled_, blocks, blocks) +
+         room::reserve(room::part(self, &SettledSums::nodes_), &Places::places, places) +
+         room::reserve(room::part(self, &SettledSums::spells_), &Places::places, places) +
+         room::reserve(self, &SettledSums::free_, places) +
+         room::reserve(self, &SettledSums::columns_, places) +
+         room::resize(self, &SettledSums::B_, kPointSize, size) +
+         room::reserve(self, &SettledSums::places_of_B_, places);
 }
 
 void SettledSums::clear() {

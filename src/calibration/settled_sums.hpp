@@ -19,6 +19,8 @@ class SettledSums {
  public:
   /// Room for as many nodes and spells as `drift` allows.
   explicit SettledSums(const DriftConfig& drift);
+  /// geometry/room.hpp
+  static std::size_t take_room(SettledSums* self, const DriftConfig& drift);
 
   /// The object is eliminated: it tells no more of the head until it is restored.
   void settle(const Landmark& landmark);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -16,8 +18,13 @@ SwayTimeline::SwayTimeline(const DriftConfig& config)
     : parts_between_nodes_(
           std::max(1, static_cast<int>(std::lround(config.node_spacing_s / config.spell_s)))),
       max_spells_(config.max_spells),
-      time_constant_s_(config.sway_time_constant_s),
-      spells_(kRemembered) {}
+      time_constant_s_(config.sway_time_constant_s) {
+  take_room(this);
+}
+
+std::size_t SwayTimeline::take_room(SwayTimeline* self) {
+  return room::resize(self, &SwayTimeline::spells_, kRemembered);
+}
 
 std::uint32_t SwayTimeline::cover(VehicleTime time, std::uint32_t node, double share) {
   if (max_spells_ == 0) return kNoSpell;

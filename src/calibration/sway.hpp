@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -39,6 +40,8 @@ struct Spell {
 class SwayTimeline {
  public:
   explicit SwayTimeline(const DriftConfig& config);
+  /// geometry/room.hpp
+  static std::size_t take_room(SwayTimeline* self);
 
   /// The spell of a time that lies between the node and the next, by a share of their distance; made if need
   /// be. Nodes and times run forward. kNoSpell where none are wanted.

@@ -8,7 +8,7 @@
 #include "camera/camera_fields.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "settings/field_checker.hpp"
 
 namespace geoloc {
@@ -146,7 +146,7 @@ Rigid3d body_from_camera(const CameraMount& mount) {
 
 CameraModel::CameraModel(const CameraIntrinsics& intrinsics)
     : intrinsics_(intrinsics), max_radius_squared_(monotonic_radius_squared(intrinsics.distortion)) {
-  throw_if_any(CameraConfig{intrinsics, {}}.problems());
+  refuse_if_any(CameraConfig{intrinsics, {}}.problems());
 }
 
 CameraModel CameraModel::with_focal_length(const Eigen::Vector2d& focal_px) const {

@@ -12,6 +12,7 @@
 #include "fleet/map_merges.hpp"
 #include "fleet/map_solver.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geometry/symmetric.hpp"
 
 namespace geoloc {
@@ -218,7 +219,7 @@ std::vector<std::string> FusionConfig::problems() const {
 }
 
 FusedMap fuse(const Fleet& fleet, const FusionConfig& config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
   FusedMap map;
   if (fleet.empty()) return map;
   map.frame.emplace(fleet.begin()->second.origin);

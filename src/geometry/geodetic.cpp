@@ -4,9 +4,9 @@
 #include <GeographicLib/LocalCartesian.hpp>
 #include <GeographicLib/UTMUPS.hpp>
 #include <cmath>
-#include <stdexcept>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/refuse.hpp"
 
 namespace geoloc {
 
@@ -24,9 +24,8 @@ std::optional<UtmPoint> to_utm(const Geodetic& point) {
 
 LocalFrame::LocalFrame(const Geodetic& origin, double scale_height_m)
     : origin_(origin), scale_height_m_(scale_height_m) {
-  if (!is_valid(origin) || !std::isfinite(scale_height_m)) {
-    throw std::invalid_argument("LocalFrame: the origin is not a point on the WGS84 ellipsoid");
-  }
+  if (!is_valid(origin) || !std::isfinite(scale_height_m))
+    refuse("LocalFrame: the origin is not a point on the WGS84 ellipsoid");
   cartesian_ = std::make_shared<const GeographicLib::LocalCartesian>(origin.latitude_deg,
                                                                      origin.longitude_deg, scale_height_m);
 }

@@ -18,15 +18,20 @@ namespace geoloc {
 /// As many doubles side by side as the widest registers hold; the compiler splits them where they are
 /// narrower.
 inline constexpr std::size_t kLanes = 4;
-using Lanes =
-    double __attribute__((vector_size(kLanes * sizeof(double)), aligned(alignof(double)), may_alias));
+using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
 
-inline const Lanes& lanes(const double* from) {
-  return *reinterpret_cast<const Lanes*>(from);
+/// Lanes among other numbers, wherever they begin. (clang takes no notice of a lower alignment of Lanes
+/// themselves, and reads them by instructions that fault.)
+struct LanesInRow {
+  Lanes value;
+} __attribute__((packed, aligned(alignof(double)), may_alias));
+
+inline const LanesInRow& lanes(const double* from) {
+  return *reinterpret_cast<const LanesInRow*>(from);
 }
 
-inline Lanes& lanes(double* from) {
-  return *reinterpret_cast<Lanes*>(from);
+inline LanesInRow& lanes(double* from) {
+  return *reinterpret_cast<LanesInRow*>(from);
 }
 
 }  // namespace geoloc

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "geometry/room.hpp"
 #include "pipeline/kept_frame.hpp"
 
 namespace geoloc {
@@ -18,11 +19,15 @@ class FrameQueue {
  public:
   static constexpr std::size_t kMost = 64;
 
-  explicit FrameQueue(int max_detections) : frames_(kMost, KeptFrame(0)) {
-    for (std::size_t i = 0; i < kMost; ++i) {
-      frames_[i].detections.reserve(static_cast<std::size_t>(max_detections));
-      order_[i] = static_cast<std::uint8_t>(i);
-    }
+  explicit FrameQueue(int max_detections) {
+    take_room(this, max_detections);
+    for (std::size_t i = 0; i < kMost; ++i) order_[i] = static_cast<std::uint8_t>(i);
+  }
+  /// geometry/room.hpp
+  static std::size_t take_room(FrameQueue* self, int max_detections) {
+    const std::size_t bytes = room::reserve(self, &FrameQueue::frames_, kMost);
+    for (std::size_t i = 0; self != nullptr && i < kMost; ++i) self->frames_.emplace_back(max_detections);
+    return bytes + kMost * KeptFrame::take_room(nullptr, max_detections);
   }
 
   std::size_t size() const { return size_; }

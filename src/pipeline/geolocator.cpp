@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/pipeline/geolocator.hpp"
 
+#include "geoloc/geometry/refuse.hpp"
 #include "pipeline/geolocator_fields.hpp"
 #include "pipeline/geolocator_implementation.hpp"
 #include "settings/field_checker.hpp"
@@ -11,11 +12,21 @@ std::vector<std::string> GeolocatorConfig::problems() const {
   return check_fields(*this);
 }
 
+Expected<Geolocator, std::vector<std::string>> Geolocator::create(const GeolocatorConfig& config) {
+  if (auto problems = config.problems(); !problems.empty()) return problems;
+  return Geolocator(config);
+}
+
 Geolocator::Geolocator(const GeolocatorConfig& config)
     : implementation_(std::make_unique<Implementation>(config)) {}
 Geolocator::~Geolocator() = default;
 Geolocator::Geolocator(Geolocator&&) noexcept = default;
 Geolocator& Geolocator::operator=(Geolocator&&) noexcept = default;
+
+std::size_t Geolocator::memory_needed(const GeolocatorConfig& config) {
+  refuse_if_any(config.problems());
+  return sizeof(Implementation) + Implementation::take_room(nullptr, config);
+}
 
 void Geolocator::add(const AttitudeSample& sample) {
   implementation_->state.add(sample);

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "camera/camera_fields.hpp"
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
+#include "geometry/room.hpp"
 #include "tracking/joint_tracker.hpp"
 #include "tracking/paper_tracker.hpp"
 
@@ -13,7 +14,7 @@ namespace geoloc {
 namespace {
 
 GeolocatorConfig checked(const GeolocatorConfig& config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
   return config;
 }
 
@@ -21,6 +22,13 @@ std::unique_ptr<Tracker> make_tracker(const GeolocatorConfig& config) {
   if (config.method == Method::kPaper)
     return std::make_unique<PaperTracker>(config.paper, config.max_detections);
   return std::make_unique<JointTracker>(config.joint, config.known_points, config.max_detections);
+}
+
+std::size_t bytes_of_tracker(const GeolocatorConfig& config) {
+  if (config.method == Method::kPaper)
+    return sizeof(PaperTracker) + PaperTracker::take_room(nullptr, config.paper, config.max_detections);
+  return sizeof(JointTracker) +
+         JointTracker::take_room(nullptr, config.joint, config.known_points, config.max_detections);
 }
 
 FrameFate fate_of(NoState reason) {
@@ -51,8 +59,18 @@ Geolocator::Implementation::Implementation(const GeolocatorConfig& given)
       waiting(config.max_detections),
       zoom_(config.camera.intrinsics),
       taken_(config.max_detections) {
-  located.reserve(config.max_detections);
-  turned_located_.reserve(config.max_detections);
+  take_room(this, config);
+}
+
+/// Its parts have taken theirs.
+std::size_t Geolocator::Implementation::take_room(Implementation* self, const GeolocatorConfig& config) {
+  std::size_t bytes =
+      room::bytes_of_copy(config.joint.moving.classes) + room::bytes_of_copy(config.known_points);
+  for (const KnownPoint& point : config.known_points) bytes += room::bytes_of_copy(point.name);
+  return bytes + bytes_of_tracker(config) + FrameQueue::take_room(nullptr, config.max_detections) +
+         KeptFrame::take_room(nullptr, config.max_detections) +
+         room::reserve(self, &Implementation::located, config.max_detections) +
+         room::reserve(self, &Implementation::turned_located_, config.max_detections);
 }
 
 /// A reboot sets the vehicle's clock back.

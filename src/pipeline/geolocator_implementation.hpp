@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -23,6 +24,8 @@ namespace geoloc {
 class Geolocator::Implementation {
  public:
   explicit Implementation(const GeolocatorConfig& given);
+  /// geometry/room.hpp
+  static std::size_t take_room(Implementation* self, const GeolocatorConfig& config);
 
   std::optional<NoState> missing_state(VehicleTime captured_at) const;
 

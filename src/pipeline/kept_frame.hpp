@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "geoloc/camera/detection.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 #include "geoloc/projection/ground_fix.hpp"
+#include "geometry/room.hpp"
 
 namespace geoloc {
 
@@ -19,7 +21,11 @@ struct KeptFrame {
   std::uint64_t at_edge = 0;          ///< cut by the image's edge, perhaps
 
   /// Room for that many detections.
-  explicit KeptFrame(int max_detections) { detections.reserve(static_cast<std::size_t>(max_detections)); }
+  explicit KeptFrame(int max_detections) { take_room(this, max_detections); }
+  /// geometry/room.hpp
+  static std::size_t take_room(KeptFrame* self, int max_detections) {
+    return room::reserve(self, &KeptFrame::detections, max_detections);
+  }
 
   /// Does not allocate where there is room for config.max_detections.
   void take(const FrameDetections& frame, const GeolocatorConfig& config);

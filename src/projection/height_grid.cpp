@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 
 namespace geoloc {
 namespace {
@@ -49,20 +50,31 @@ Span span_at(double steps, std::size_t nodes) {
 
 }  // namespace
 
+std::vector<std::string> HeightGrid::problems(const Layout& layout, const std::vector<float>& heights_m) {
+  Problems found;
+  const bool lies_on_earth = is_on_earth(layout);
+  found.require(lies_on_earth, "the heights' grid does not lie on Earth");
+  found.require(!lies_on_earth || (heights_m.size() / layout.columns == layout.rows &&
+                                   heights_m.size() % layout.columns == 0),
+                "the heights' grid has another number of nodes than heights");
+  const auto is_infinite = [](float height_m) { return std::isinf(height_m); };
+  const auto is_known = [](float height_m) { return std::isfinite(height_m); };
+  found.require(std::none_of(heights_m.begin(), heights_m.end(), is_infinite),
+                "a height of the grid is infinite");
+  found.require(std::any_of(heights_m.begin(), heights_m.end(), is_known), "no height of the grid is known");
+  return found.take();
+}
+
 HeightGrid::HeightGrid(const Layout& layout, std::vector<float> heights_m)
     : layout_(layout), heights_m_(std::move(heights_m)) {
-  if (!is_on_earth(layout)) throw std::invalid_argument("the heights' grid does not lie on Earth");
-  if (heights_m_.size() / layout.columns != layout.rows || heights_m_.size() % layout.columns != 0)
-    throw std::invalid_argument("the heights' grid has another number of nodes than heights");
+  refuse_if_any(problems(layout_, heights_m_));
   least_m_ = std::numeric_limits<double>::infinity();
   greatest_m_ = -least_m_;
   for (const float height_m : heights_m_) {
-    if (std::isinf(height_m)) throw std::invalid_argument("a height of the grid is infinite");
     if (std::isnan(height_m)) continue;
     least_m_ = std::min<double>(least_m_, height_m);
     greatest_m_ = std::max<double>(greatest_m_, height_m);
   }
-  if (!(least_m_ <= greatest_m_)) throw std::invalid_argument("no height of the grid is known");
   const double middle_deg = 0.5 * (layout.south_deg + north_of(layout));
   spacing_m_ = std::min(layout.latitude_step_deg * kMetresPerDegree,
                         layout.longitude_step_deg * metres_per_degree_of_longitude(middle_deg));

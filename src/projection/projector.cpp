@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/geometry/problems.hpp"
 #include "geoloc/geometry/ray_plane.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "projection/projector_fields.hpp"
 #include "settings/field_checker.hpp"
 
@@ -33,7 +33,7 @@ Projector::Projector(const ProjectorConfig& config, const CameraIntrinsics& intr
     : config_(config),
       camera_(intrinsics),
       min_depression_sine_(std::sin(config.min_depression_deg * kRadPerDeg)) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
 }
 
 /// Checked to come down steeply enough from above the plane.

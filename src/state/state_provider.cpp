@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "settings/field_checker.hpp"
 #include "state/state_fields.hpp"
 #include "state/turning.hpp"
@@ -86,7 +86,7 @@ std::vector<std::string> StateConfig::problems() const {
 }
 
 StateProvider::StateProvider(const StateConfig& config) : config_(config), gimbal_(config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
 }
 
 bool StateProvider::accept_stamp(VehicleTime stamp) {

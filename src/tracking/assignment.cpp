@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "geometry/room.hpp"
 #include "tracking/dense_assignment.hpp"
 #include "tracking/gated_components.hpp"
 
@@ -47,6 +48,7 @@ struct AssignmentSolver::Workspace {
   DenseAssignment problem;
   std::vector<std::size_t> column_of_row;
 
+  static std::size_t take_room(Workspace* self, int rows, int columns);
   void solve(const Costs& costs, double max_cost, Numbers rows, Numbers columns);
   void pair(const Costs& costs, double max_cost, int row, int column);
 };
@@ -57,9 +59,18 @@ AssignmentSolver::AssignmentSolver(AssignmentSolver&&) noexcept = default;
 AssignmentSolver& AssignmentSolver::operator=(AssignmentSolver&&) noexcept = default;
 
 void AssignmentSolver::reserve(int rows, int columns) {
-  workspace_->components.reserve(rows, columns);
-  workspace_->problem.reserve(std::min(rows, columns), std::max(rows, columns));
-  workspace_->column_of_row.reserve(rows);
+  Workspace::take_room(workspace_.get(), rows, columns);
+}
+
+std::size_t AssignmentSolver::bytes(int rows, int columns) {
+  return sizeof(Workspace) + Workspace::take_room(nullptr, rows, columns);
+}
+
+std::size_t AssignmentSolver::Workspace::take_room(Workspace* self, int rows, int columns) {
+  return GatedComponents::take_room(room::part(self, &Workspace::components), rows, columns) +
+         DenseAssignment::take_room(room::part(self, &Workspace::problem), std::min(rows, columns),
+                                    std::max(rows, columns)) +
+         room::reserve(self, &Workspace::column_of_row, rows);
 }
 
 const std::vector<std::size_t>& AssignmentSolver::solve(const Costs& costs, double max_cost) {

@@ -6,6 +6,8 @@
 #include <memory>
 #include <vector>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 
 /// Numbered places for values that come and go. They are allocated in blocks, as they become more, and don't
@@ -18,6 +20,16 @@ class BlockPool {
 
   /// One past the highest place that was ever in use.
   std::uint32_t end() const { return end_; }
+
+  /// geometry/room.hpp
+  static std::size_t take_room(BlockPool* self, std::size_t count) {
+    const std::size_t blocks = (count + kBlock - 1) / kBlock;
+    const std::size_t bytes = room::reserve(self, &BlockPool::blocks_, blocks) +
+                              room::reserve(self, &BlockPool::free_, blocks * kBlock) +
+                              blocks * room::bytes_of_array<T>(kBlock);
+    if (self != nullptr) self->reserve(count);
+    return bytes;
+  }
 
   /// Room for so many.
   void reserve(std::size_t count) {

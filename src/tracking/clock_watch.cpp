@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/room.hpp"
 #include "tracking/frame_boxes.hpp"
 
 namespace geoloc {
@@ -45,8 +46,12 @@ bool is_another(int number, double believed_s) {
 }  // namespace
 
 ClockWatch::ClockWatch(int most_places) : back_off_s_(kBackOff_s) {
-  places_.reserve(static_cast<std::size_t>(most_places));
-  held_.reserve(kMostFrames);
+  take_room(this, most_places);
+}
+
+std::size_t ClockWatch::take_room(ClockWatch* self, int most_places) {
+  return room::reserve(self, &ClockWatch::places_, most_places) +
+         room::reserve(self, &ClockWatch::held_, kMostFrames);
 }
 
 void ClockWatch::begin_anew() {

@@ -20,6 +20,8 @@ namespace geoloc {
 class ClockWatch {
  public:
   explicit ClockWatch(int most_places);
+  /// geometry/room.hpp
+  static std::size_t take_room(ClockWatch* self, int most_places);
 
   /// Where objects should be. To be listed anew before each frame while there is no doubt; in doubt, what was
   /// known before is what tells.

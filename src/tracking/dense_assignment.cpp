@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "geometry/room.hpp"
 #include "tracking/row_minima.hpp"
 
 namespace geoloc {
@@ -36,15 +37,18 @@ struct DenseAssignment::TwoLeast {
   }
 };
 
-void DenseAssignment::reserve(std::size_t rows, std::size_t columns) {
+std::size_t DenseAssignment::take_room(DenseAssignment* self, std::size_t rows, std::size_t columns) {
+  using Self = DenseAssignment;
   const std::size_t blocks = blocks_for(columns), stride = blocks * kMinimaBlock;
-  costs_.reserve(rows * stride);
-  for (auto* values : {&price_, &taken_, &distance_, &source_, &open_price_}) values->reserve(stride);
-  for (auto* values : {&row_of_column_, &reached_}) values->reserve(columns);
-  for (auto* values : {&column_of_row_, &free_rows_}) values->reserve(rows);
-  reached_at_.reserve(columns);
-  block_minimum_.reserve(blocks);
-  free_block_minimum_.reserve(blocks);
+  std::size_t bytes = room::reserve(self, &Self::costs_, rows * stride) +
+                      room::reserve(self, &Self::reached_at_, columns) +
+                      room::reserve(self, &Self::block_minimum_, blocks) +
+                      room::reserve(self, &Self::free_block_minimum_, blocks);
+  for (auto values : {&Self::price_, &Self::taken_, &Self::distance_, &Self::source_, &Self::open_price_})
+    bytes += room::reserve(self, values, stride);
+  for (auto values : {&Self::row_of_column_, &Self::reached_}) bytes += room::reserve(self, values, columns);
+  for (auto values : {&Self::column_of_row_, &Self::free_rows_}) bytes += room::reserve(self, values, rows);
+  return bytes;
 }
 
 void DenseAssignment::begin(std::size_t rows, std::size_t columns) {

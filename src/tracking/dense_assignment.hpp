@@ -12,7 +12,8 @@ namespace geoloc {
 /// (1987). Keeps its storage between problems.
 class DenseAssignment {
  public:
-  void reserve(std::size_t rows, std::size_t columns);
+  /// geometry/room.hpp
+  static std::size_t take_room(DenseAssignment* self, std::size_t rows, std::size_t columns);
 
   /// The next problem; rows <= columns. Its costs, all finite, are to be written row by row.
   void begin(std::size_t rows, std::size_t columns);

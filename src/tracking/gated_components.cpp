@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -25,10 +27,16 @@ void group(const std::vector<int>& component_of_item, std::size_t components, st
 
 }  // namespace
 
-void GatedComponents::reserve(std::size_t rows, std::size_t columns) {
-  for (auto* numbers : {&parent_, &component_of_row_, &rows_}) numbers->reserve(rows);
-  for (auto* numbers : {&component_of_column_, &columns_}) numbers->reserve(columns);
-  for (auto* numbers : {&rows_begin_, &columns_begin_}) numbers->reserve(rows + 2);
+std::size_t GatedComponents::take_room(GatedComponents* self, std::size_t rows, std::size_t columns) {
+  using Self = GatedComponents;
+  std::size_t bytes = 0;
+  for (auto numbers : {&Self::parent_, &Self::component_of_row_, &Self::rows_})
+    bytes += room::reserve(self, numbers, rows);
+  for (auto numbers : {&Self::component_of_column_, &Self::columns_})
+    bytes += room::reserve(self, numbers, columns);
+  for (auto numbers : {&Self::rows_begin_, &Self::columns_begin_})
+    bytes += room::reserve(self, numbers, rows + 2);
+  return bytes;
 }
 
 int GatedComponents::root(int row) {

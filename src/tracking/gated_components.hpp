@@ -20,7 +20,8 @@ class GatedComponents {
     int operator[](std::size_t i) const { return begin_[i]; }
   };
 
-  void reserve(std::size_t rows, std::size_t columns);
+  /// geometry/room.hpp
+  static std::size_t take_room(GatedComponents* self, std::size_t rows, std::size_t columns);
 
   void find(const Eigen::Ref<const Eigen::MatrixXd>& costs, double limit);
 

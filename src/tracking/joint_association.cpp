@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geometry/room.hpp"
 #include "tracking/gaussian.hpp"
 
 namespace geoloc {
@@ -39,19 +40,31 @@ Eigen::Matrix2d prior_covariance(const Pairing& pairing) {
 }  // namespace
 
 JointAssociation::JointAssociation(int max_looks, int max_tracks, std::size_t most_explanations) {
-  pairings_.reserve(kPairingsPerLook * max_looks);
-  pairings_of_look_.reserve(max_looks);
-  least_cost_of_look_.reserve(max_looks);
-  cost_alone_of_look_.reserve(max_looks);
-  column_of_track_.assign(max_tracks, kNone);
-  track_of_column_.reserve(max_tracks);
-  pairings_of_column_.reserve(max_tracks);
-  costs_.resize(max_looks, max_tracks);
-  pairing_at_.resize(max_looks, max_tracks);
-  assignment_.reserve(max_looks, max_tracks);
-  hypotheses_.resize(most_explanations);
-  for (Hypothesis& hypothesis : hypotheses_) hypothesis.pairing_of_look.reserve(max_looks);
-  matches_.reserve(max_looks);
+  take_room(this, max_looks, max_tracks, most_explanations);
+  std::fill(column_of_track_.begin(), column_of_track_.end(), kNone);
+}
+
+std::size_t JointAssociation::take_room(JointAssociation* self, int max_looks, int max_tracks,
+                                        std::size_t most_explanations) {
+  using Self = JointAssociation;
+  std::size_t bytes = room::reserve(self, &Self::pairings_, kPairingsPerLook * max_looks) +
+                      room::reserve(self, &Self::pairings_of_look_, max_looks) +
+                      room::reserve(self, &Self::least_cost_of_look_, max_looks) +
+                      room::reserve(self, &Self::cost_alone_of_look_, max_looks) +
+                      room::resize(self, &Self::column_of_track_, max_tracks) +
+                      room::reserve(self, &Self::track_of_column_, max_tracks) +
+                      room::reserve(self, &Self::pairings_of_column_, max_tracks) +
+                      room::resize(self, &Self::costs_, max_looks, max_tracks) +
+                      room::resize(self, &Self::pairing_at_, max_looks, max_tracks) +
+                      AssignmentSolver::bytes(max_looks, max_tracks) +
+                      room::resize(self, &Self::hypotheses_, most_explanations) +
+                      room::reserve(self, &Self::matches_, max_looks);
+  if (self != nullptr) self->assignment_.reserve(max_looks, max_tracks);
+  for (std::size_t i = 0; i < most_explanations; ++i) {
+    Hypothesis* const hypothesis = self != nullptr ? &self->hypotheses_[i] : nullptr;
+    bytes += room::reserve(hypothesis, &Hypothesis::pairing_of_look, max_looks);
+  }
+  return bytes;
 }
 
 void JointAssociation::begin(std::size_t looks, double gate, double ambiguity) {

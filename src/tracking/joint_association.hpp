@@ -44,8 +44,13 @@ class JointAssociation {
   /// ambiguity between two tracks, since for want of a look a new object is begun and may be merged later.
   static constexpr double kAmbiguityAlone = 2.0;
 
+  static constexpr std::size_t kMostExplanations = 32;
+
   /// most_explanations: tried of one frame.
-  JointAssociation(int max_looks, int max_tracks, std::size_t most_explanations = 32);
+  JointAssociation(int max_looks, int max_tracks, std::size_t most_explanations = kMostExplanations);
+  /// geometry/room.hpp
+  static std::size_t take_room(JointAssociation* self, int max_looks, int max_tracks,
+                               std::size_t most_explanations = kMostExplanations);
 
   /// A new frame. gate: squared Mahalanobis distance at which a look is rather left alone; ambiguity: as much
   /// worse, in the same units, an explanation may be to be held possible.

@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
+#include "geometry/room.hpp"
 #include "tracking/false_looks.hpp"
 #include "tracking/gaussian.hpp"
 #include "tracking/ground_prior.hpp"
@@ -31,7 +32,7 @@ constexpr std::size_t kSleepersPerFrame = 8;
 constexpr std::size_t kCovariancesPerSolution = 48;
 
 JointTrackerConfig checked(const JointTrackerConfig& config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
   return config;
 }
 
@@ -109,10 +110,30 @@ JointTracker::JointTracker(const JointTrackerConfig& config, std::vector<KnownPo
       tracks_(most_awake(config)),
       recent_looks_(max_detections),
       moving_(config_, max_detections),
-      sleeping_(config.drift),
+      sleeping_(config.drift, TrackTable::kRowsAtFirst),
       published_(config.max_tracks) {
-  if (!config.moving.classes.empty()) published_with_moving_.reserve(config.max_tracks + most_awake(config));
-  sleeping_.reserve(TrackTable::kRowsAtFirst);
+  take_room(this, config, known_points_.points(), max_detections);
+}
+
+/// Its parts have taken theirs.
+std::size_t JointTracker::take_room(JointTracker* self, const JointTrackerConfig& config,
+                                    const std::vector<KnownPoint>& known_points, int max_detections) {
+  const std::size_t max_moving = config.moving.classes.empty() ? 0 : config.max_tracks + most_awake(config);
+  return room::bytes_of_copy(config.moving.classes) + ArrowheadSolver::take_room(nullptr, config.drift) +
+         DriftTimeline::take_room(nullptr, config.drift) +
+         HeightLog::take_room(nullptr, config.drift.max_nodes) + LatencyWatch::take_room(nullptr) +
+         ClockWatch::take_room(nullptr, most_awake(config)) +
+         WaitingFrames::take_room(nullptr, max_detections) +
+         LookMaker::take_room(nullptr, config, max_detections) +
+         LookMatcher::take_room(nullptr, config, max_detections) +
+         KnownPointMatcher::take_room(nullptr, known_points, most_awake(config)) +
+         SurveyedObjects::take_room(nullptr, most_awake(config)) +
+         TrackTable::take_room(nullptr, most_awake(config)) + OpeningLooks::take_room(nullptr) +
+         RecentLooks::take_room(nullptr, max_detections) +
+         MovingTracker::take_room(nullptr, config, max_detections) +
+         SleepingObjects::take_room(nullptr, config.drift, TrackTable::kRowsAtFirst) +
+         PublishedTracks::take_room(nullptr, config.max_tracks) +
+         room::reserve(self, &JointTracker::published_with_moving_, max_moving);
 }
 
 std::optional<Calibration> JointTracker::calibration_of_camera() const {

@@ -38,6 +38,9 @@ class JointTracker final : public Tracker {
   /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
   /// given.
   JointTracker(const JointTrackerConfig& config, std::vector<KnownPoint> known_points, int max_detections);
+  /// geometry/room.hpp
+  static std::size_t take_room(JointTracker* self, const JointTrackerConfig& config,
+                               const std::vector<KnownPoint>& known_points, int max_detections);
 
   void update(const LocatedFrame& frame) override;
   void finish(const LocatedFrame& last) override;

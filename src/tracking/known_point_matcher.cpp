@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geometry/room.hpp"
 #include "settings/field_checker.hpp"
 #include "tracking/gaussian.hpp"
 #include "tracking/known_point_fields.hpp"
@@ -28,6 +29,10 @@ constexpr int kSolutionsToProve = 3;
 /// (2 ln 250).
 constexpr double kCertainty = 11.0;
 
+std::size_t most_explanations(std::size_t points) {
+  return std::min(kMostExplanations, 1 + kExplanationsPerPoint * points);
+}
+
 }  // namespace
 
 std::vector<std::string> KnownPoint::problems() const {
@@ -36,11 +41,20 @@ std::vector<std::string> KnownPoint::problems() const {
 
 KnownPointMatcher::KnownPointMatcher(std::vector<KnownPoint> points, int max_tracks)
     : points_(std::move(points)),
-      entries_(points_.size()),
-      matches_(points_.size()),
       association_(static_cast<int>(points_.size()), points_.empty() ? 0 : max_tracks,
-                   std::min(kMostExplanations, 1 + kExplanationsPerPoint * points_.size())) {
-  open_.reserve(points_.size());
+                   most_explanations(points_.size())) {
+  take_room(this, points_, max_tracks);
+}
+
+std::size_t KnownPointMatcher::take_room(KnownPointMatcher* self, const std::vector<KnownPoint>& points,
+                                         int max_tracks) {
+  std::size_t bytes = room::bytes_of_copy(points);
+  for (const KnownPoint& point : points) bytes += room::bytes_of_copy(point.name);
+  return bytes + room::resize(self, &KnownPointMatcher::entries_, points.size()) +
+         room::resize(self, &KnownPointMatcher::matches_, points.size()) +
+         room::reserve(self, &KnownPointMatcher::open_, points.size()) +
+         JointAssociation::take_room(nullptr, static_cast<int>(points.size()),
+                                     points.empty() ? 0 : max_tracks, most_explanations(points.size()));
 }
 
 /// A first frame says all that a look can say.

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -48,8 +49,12 @@ class KnownPointMatcher {
   };
 
   KnownPointMatcher(std::vector<KnownPoint> points, int max_tracks);
+  /// geometry/room.hpp
+  static std::size_t take_room(KnownPointMatcher* self, const std::vector<KnownPoint>& points,
+                               int max_tracks);
 
   bool is_empty() const { return points_.empty(); }
+  const std::vector<KnownPoint>& points() const { return points_; }
 
   /// Whether the object of any point is known.
   bool has_matched() const {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -33,7 +35,13 @@ bool is_well_inside(const Eigen::Vector2d& pixel, double margin_px, const Camera
 
 }  // namespace
 
-LatencyWatch::LatencyWatch() : frames_(kFrames) {}
+LatencyWatch::LatencyWatch() {
+  take_room(this);
+}
+
+std::size_t LatencyWatch::take_room(LatencyWatch* self) {
+  return room::resize(self, &LatencyWatch::frames_, kFrames);
+}
 
 bool LatencyWatch::is_at_start() const {
   return pairs_ <= kDue.back();

@@ -18,6 +18,8 @@ namespace geoloc {
 class LatencyWatch {
  public:
   LatencyWatch();
+  /// geometry/room.hpp
+  static std::size_t take_room(LatencyWatch* self);
 
   /// A frame, and what is believed of the latency. The latency that explains the last frames far better,
   /// where there is one: the flight began with another than expected.

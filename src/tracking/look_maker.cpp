@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "geoloc/geometry/angles.hpp"
+#include "geometry/room.hpp"
 #include "tracking/ground_prior.hpp"
 
 namespace geoloc {
@@ -64,8 +65,14 @@ double fast_position_variance_m2(const JointTrackerConfig& config, const SharedE
 }
 
 LookMaker::LookMaker(const JointTrackerConfig& config, int max_detections) : config_(config) {
-  looks_.at_rest.reserve(max_detections);
-  if (!config.moving.classes.empty()) looks_.moving.reserve(max_detections);
+  take_room(this, config, max_detections);
+}
+
+std::size_t LookMaker::take_room(LookMaker* self, const JointTrackerConfig& config, int max_detections) {
+  FrameLooks* const looks = room::part(self, &LookMaker::looks_);
+  const int max_moving = config.moving.classes.empty() ? 0 : max_detections;
+  return room::reserve(looks, &FrameLooks::at_rest, max_detections) +
+         room::reserve(looks, &FrameLooks::moving, max_moving);
 }
 
 FrameLooks& LookMaker::make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,

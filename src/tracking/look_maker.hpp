@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "calibration/linearize.hpp"
@@ -21,6 +22,8 @@ class LookMaker {
  public:
   /// `config` must outlive it. max_detections: the most that make() will be given.
   LookMaker(const JointTrackerConfig& config, int max_detections);
+  /// geometry/room.hpp
+  static std::size_t take_room(LookMaker* self, const JointTrackerConfig& config, int max_detections);
 
   /// Duplicates are left out. The reference holds until the next call.
   FrameLooks& make(const std::vector<LocatedDetection>& detections, const JointFrame& frame,

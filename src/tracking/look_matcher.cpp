@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "geometry/room.hpp"
 #include "tracking/sleep_cycle.hpp"
 
 namespace geoloc {
@@ -64,9 +65,15 @@ bool is_older(const RestingObject& object, const RestingObject& other) {
 
 LookMatcher::LookMatcher(const JointTrackerConfig& config, int max_detections)
     : config_(config), association_(max_detections, most_awake(config)) {
-  explanation_.match_of_look.reserve(max_detections);
-  reach_of_track_.reserve(most_awake(config));
-  median_scratch_.reserve(max_detections);
+  take_room(this, config, max_detections);
+}
+
+std::size_t LookMatcher::take_room(LookMatcher* self, const JointTrackerConfig& config, int max_detections) {
+  Explanation* const explanation = room::part(self, &LookMatcher::explanation_);
+  return JointAssociation::take_room(nullptr, max_detections, most_awake(config)) +
+         room::reserve(explanation, &Explanation::match_of_look, max_detections) +
+         room::reserve(self, &LookMatcher::reach_of_track_, most_awake(config)) +
+         room::reserve(self, &LookMatcher::median_scratch_, max_detections);
 }
 
 const Explanation& LookMatcher::explain(const std::vector<Look>& looks, const FrameNoise& noise,

@@ -25,6 +25,8 @@ class LookMatcher {
  public:
   /// `config` must outlive it.
   LookMatcher(const JointTrackerConfig& config, int max_detections);
+  /// geometry/room.hpp
+  static std::size_t take_room(LookMatcher* self, const JointTrackerConfig& config, int max_detections);
 
   /// Explains the looks and notes in the tracks what they are evidence of. The reference holds until the next
   /// call.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/room.hpp"
 #include "tracking/gaussian.hpp"
 #include "tracking/visibility.hpp"
 
@@ -30,12 +31,19 @@ SharedError::Row lasting(SharedError::Row jacobian) {
 }  // namespace
 
 MovingTracker::MovingTracker(const JointTrackerConfig& config, int max_detections) : config_(config) {
-  if (config.moving.classes.empty()) return;
-  objects_.reserve(config.max_tracks);
-  active_.reserve(config.max_tracks);
-  row_of_look_.reserve(max_detections);
-  costs_.resize(max_detections, config.max_tracks);
-  assignment_.reserve(max_detections, config.max_tracks);
+  take_room(this, config, max_detections);
+}
+
+/// Where nothing moves there are no looks to match.
+std::size_t MovingTracker::take_room(MovingTracker* self, const JointTrackerConfig& config,
+                                     int max_detections) {
+  const bool is_used = !config.moving.classes.empty();
+  const int looks = is_used ? max_detections : 0, tracks = is_used ? config.max_tracks : 0;
+  if (self != nullptr) self->assignment_.reserve(looks, tracks);
+  return room::reserve(self, &MovingTracker::objects_, tracks) +
+         room::reserve(self, &MovingTracker::active_, tracks) +
+         room::reserve(self, &MovingTracker::row_of_look_, looks) +
+         room::resize(self, &MovingTracker::costs_, looks, tracks) + AssignmentSolver::bytes(looks, tracks);
 }
 
 void MovingTracker::update(const std::vector<Look>& looks, const Context& context, TrackBook& book) {

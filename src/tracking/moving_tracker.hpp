@@ -40,6 +40,8 @@ class MovingTracker {
 
   /// `config` is checked, and must outlive the tracker. max_detections: the most that update() will be given.
   MovingTracker(const JointTrackerConfig& config, int max_detections);
+  /// geometry/room.hpp
+  static std::size_t take_room(MovingTracker* self, const JointTrackerConfig& config, int max_detections);
 
   /// One frame's looks at objects of moving classes.
   void update(const std::vector<Look>& looks, const Context& context, TrackBook& book);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/opening_looks.hpp"
+#include "geometry/room.hpp"
 
 namespace geoloc {
 namespace {
@@ -23,8 +24,12 @@ void keep_in_place_without_looks(RestingObject& object) {
 }  // namespace
 
 OpeningLooks::OpeningLooks() {
-  frames_.reserve(kMostFrames);
-  sightings_.reserve(kMostSightings);
+  take_room(this);
+}
+
+std::size_t OpeningLooks::take_room(OpeningLooks* self) {
+  return room::reserve(self, &OpeningLooks::frames_, kMostFrames) +
+         room::reserve(self, &OpeningLooks::sightings_, kMostSightings);
 }
 
 void OpeningLooks::restart() {

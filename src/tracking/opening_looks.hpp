@@ -22,6 +22,8 @@ namespace geoloc {
 class OpeningLooks {
  public:
   OpeningLooks();
+  /// geometry/room.hpp
+  static std::size_t take_room(OpeningLooks* self);
 
   /// Whether the looks of all frames so far are here.
   bool is_open() const { return is_open_; }

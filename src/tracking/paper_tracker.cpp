@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
+#include "geometry/room.hpp"
 #include "tracking/gaussian.hpp"
 
 namespace geoloc {
@@ -27,13 +28,19 @@ PaperTracker::PaperTracker(const PaperTrackerConfig& config, int max_detections)
     : config_(config),
       measurement_covariance_(isotropic(config.measurement_sigma_m)),
       process_covariance_(isotropic(config.process_sigma_m)) {
-  throw_if_any(config.problems());
-  tracks_.reserve(config.max_tracks);
-  candidates_.reserve(config.max_tracks);
-  track_is_matched_.reserve(config.max_tracks);
-  track_of_detection_.reserve(max_detections);
-  costs_.resize(max_detections, config.max_tracks);
-  solver_.reserve(max_detections, config.max_tracks);
+  refuse_if_any(config.problems());
+  take_room(this, config, max_detections);
+}
+
+std::size_t PaperTracker::take_room(PaperTracker* self, const PaperTrackerConfig& config,
+                                    int max_detections) {
+  if (self != nullptr) self->solver_.reserve(max_detections, config.max_tracks);
+  return room::reserve(self, &PaperTracker::tracks_, config.max_tracks) +
+         room::reserve(self, &PaperTracker::candidates_, config.max_tracks) +
+         room::reserve(self, &PaperTracker::track_is_matched_, config.max_tracks) +
+         room::reserve(self, &PaperTracker::track_of_detection_, max_detections) +
+         room::resize(self, &PaperTracker::costs_, max_detections, config.max_tracks) +
+         AssignmentSolver::bytes(max_detections, config.max_tracks);
 }
 
 void PaperTracker::update(const LocatedFrame& frame) {

@@ -25,6 +25,8 @@ class PaperTracker final : public Tracker {
   /// Throws std::invalid_argument naming every problem. `max_detections`: the most that update() will be
   /// given.
   PaperTracker(const PaperTrackerConfig& config, int max_detections);
+  /// geometry/room.hpp
+  static std::size_t take_room(PaperTracker* self, const PaperTrackerConfig& config, int max_detections);
 
   void update(const LocatedFrame& frame) override;
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -16,7 +18,15 @@ constexpr double kLastCell = 1e9;
 
 }  // namespace
 
-PlaceIndex::PlaceIndex(double cell_m) : cell_m_(cell_m), heads_(kFirstBuckets, kNone) {}
+PlaceIndex::PlaceIndex(double cell_m, std::size_t keys) : cell_m_(cell_m) {
+  take_room(this, keys);
+  std::fill(heads_.begin(), heads_.end(), kNone);
+}
+
+std::size_t PlaceIndex::take_room(PlaceIndex* self, std::size_t keys) {
+  return room::resize(self, &PlaceIndex::heads_, kFirstBuckets) +
+         room::resize(self, &PlaceIndex::links_, keys);
+}
 
 PlaceIndex::Cell PlaceIndex::cell_of(const Eigen::Vector2d& place) const {
   const auto coordinate = [&](double along_m) {

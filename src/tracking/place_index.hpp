@@ -14,7 +14,10 @@ namespace geoloc {
 /// each costs the same however many there are. Allocates as they become more.
 class PlaceIndex {
  public:
-  explicit PlaceIndex(double cell_m);
+  /// With room for the keys below `keys`.
+  explicit PlaceIndex(double cell_m, std::size_t keys = 0);
+  /// geometry/room.hpp
+  static std::size_t take_room(PlaceIndex* self, std::size_t keys);
 
   std::size_t size() const { return size_; }
 

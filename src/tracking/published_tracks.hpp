@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geoloc/tracking/track.hpp"
+#include "geometry/room.hpp"
 
 namespace geoloc {
 
@@ -13,7 +14,11 @@ namespace geoloc {
 /// constructed only.
 class PublishedTracks {
  public:
-  explicit PublishedTracks(std::size_t most) { tracks_.reserve(most); }
+  explicit PublishedTracks(std::size_t most) { take_room(this, most); }
+  /// geometry/room.hpp
+  static std::size_t take_room(PublishedTracks* self, std::size_t most) {
+    return room::reserve(self, &PublishedTracks::tracks_, most);
+  }
 
   const std::vector<Track>& all() const { return tracks_; }
 

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -12,8 +14,14 @@ constexpr std::size_t kLeastEntries = 1000;
 
 }  // namespace
 
-RecentLooks::RecentLooks(int max_looks_per_frame)
-    : entries_(std::max(kLeastEntries, kFramesRemembered * static_cast<std::size_t>(max_looks_per_frame))) {}
+RecentLooks::RecentLooks(int max_looks_per_frame) {
+  take_room(this, max_looks_per_frame);
+}
+
+std::size_t RecentLooks::take_room(RecentLooks* self, int max_looks_per_frame) {
+  const auto looks = static_cast<std::size_t>(max_looks_per_frame);
+  return room::resize(self, &RecentLooks::entries_, std::max(kLeastEntries, kFramesRemembered * looks));
+}
 
 void RecentLooks::add(std::uint64_t track_id, VehicleTime time, const Look& look) {
   entries_[next_] = {track_id, time, look.observation, look.pixel_noise};

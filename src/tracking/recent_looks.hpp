@@ -16,6 +16,8 @@ namespace geoloc {
 class RecentLooks {
  public:
   explicit RecentLooks(int max_looks_per_frame);
+  /// geometry/room.hpp
+  static std::size_t take_room(RecentLooks* self, int max_looks_per_frame);
 
   void add(std::uint64_t track_id, VehicleTime time, const Look& look);
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -18,7 +20,18 @@ constexpr std::size_t kUsualTerms = 4;
 
 }  // namespace
 
-SleepingObjects::SleepingObjects(const DriftConfig& drift) : settled_(drift), index_(kCell_m) {}
+SleepingObjects::SleepingObjects(const DriftConfig& drift, std::size_t at_first)
+    : settled_(drift), index_(kCell_m, at_first) {
+  take_room(this, drift, at_first);
+}
+
+std::size_t SleepingObjects::take_room(SleepingObjects* self, const DriftConfig& drift,
+                                       std::size_t at_first) {
+  return SettledSums::take_room(nullptr, drift) + PlaceIndex::take_room(nullptr, at_first) +
+         decltype(sleepers_)::take_room(room::part(self, &SleepingObjects::sleepers_), at_first) +
+         decltype(terms_)::take_room(room::part(self, &SleepingObjects::terms_), kUsualTerms * at_first) +
+         room::reserve(self, &SleepingObjects::near_, at_first + at_first / 2);
+}
 
 void SleepingObjects::reserve(std::size_t count) {
   sleepers_.reserve(count);

@@ -22,8 +22,10 @@ class SleepingObjects {
  public:
   using Key = std::uint32_t;
 
-  /// Room for as many nodes as `drift` allows.
-  explicit SleepingObjects(const DriftConfig& drift);
+  /// Room for as many nodes as `drift` allows, and for so many objects.
+  explicit SleepingObjects(const DriftConfig& drift, std::size_t at_first = 0);
+  /// geometry/room.hpp
+  static std::size_t take_room(SleepingObjects* self, const DriftConfig& drift, std::size_t at_first);
 
   std::size_t size() const { return index_.size(); }
 

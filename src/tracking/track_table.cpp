@@ -3,13 +3,22 @@
 
 #include <algorithm>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 
 TrackTable::TrackTable(int max_tracks) : max_tracks_(max_tracks) {
-  rows_.reserve(max_tracks_);
-  free_entries_.reserve(max_tracks_ + kEntriesAtOnce);
-  landmarks_of_rows_.reserve(max_tracks_);
-  while (free_entries_.size() < std::min(max_tracks_, kRowsAtFirst)) add_entries();
+  take_room(this, max_tracks_);
+}
+
+std::size_t TrackTable::take_room(TrackTable* self, std::size_t max_tracks) {
+  const std::size_t blocks = (std::min(max_tracks, kRowsAtFirst) + kEntriesAtOnce - 1) / kEntriesAtOnce;
+  const std::size_t bytes = room::reserve(self, &TrackTable::rows_, max_tracks) +
+                            room::reserve(self, &TrackTable::free_entries_, max_tracks + kEntriesAtOnce) +
+                            room::reserve(self, &TrackTable::landmarks_of_rows_, max_tracks) +
+                            room::reserve(self, &TrackTable::entries_, blocks);
+  for (std::size_t i = 0; self != nullptr && i < blocks; ++i) self->add_entries();
+  return bytes + blocks * room::bytes_of_array<Entry>(kEntriesAtOnce);
 }
 
 void TrackTable::add_entries() {

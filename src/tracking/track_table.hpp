@@ -34,6 +34,8 @@ class TrackTable {
   static constexpr std::size_t kRowsAtFirst = 64;
 
   explicit TrackTable(int max_tracks);
+  /// geometry/room.hpp
+  static std::size_t take_room(TrackTable* self, std::size_t max_tracks);
   TrackTable(const TrackTable&) = delete;
   TrackTable& operator=(const TrackTable&) = delete;
 

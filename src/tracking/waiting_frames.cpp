@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "geometry/room.hpp"
+
 namespace geoloc {
 namespace {
 
@@ -13,11 +15,15 @@ constexpr std::size_t kLeastDetections = 8000;
 
 }  // namespace
 
-WaitingFrames::WaitingFrames(int max_detections)
-    : entries_(kFramesWaiting),
-      detections_(std::max(kLeastDetections, kFullFrames * static_cast<std::size_t>(max_detections))),
-      max_detections_(static_cast<std::size_t>(max_detections)) {
-  located_.reserve(max_detections_);
+WaitingFrames::WaitingFrames(int max_detections) : max_detections_(static_cast<std::size_t>(max_detections)) {
+  take_room(this, max_detections_);
+}
+
+std::size_t WaitingFrames::take_room(WaitingFrames* self, std::size_t max_detections) {
+  return room::resize(self, &WaitingFrames::entries_, kFramesWaiting) +
+         room::resize(self, &WaitingFrames::detections_,
+                      std::max(kLeastDetections, kFullFrames * max_detections)) +
+         room::reserve(self, &WaitingFrames::located_, max_detections);
 }
 
 bool WaitingFrames::is_full() const {

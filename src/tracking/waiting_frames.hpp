@@ -15,6 +15,8 @@ namespace geoloc {
 class WaitingFrames {
  public:
   explicit WaitingFrames(int max_detections);
+  /// geometry/room.hpp
+  static std::size_t take_room(WaitingFrames* self, std::size_t max_detections);
 
   /// Makes room for one more: of those used, the oldest goes. False where all wait.
   bool make_room();

@@ -160,7 +160,8 @@ class Tak(Replayed):
         name = HOSTILE_NAME
         return self.write("config.json", {"cot": {"types": {name: "a-n-G"}}})
 
-    def test_udp_by_pytak(self):
+    def received_by_pytak(self, config):
+        """The events of a replay with that configuration."""
         port = free_port()
 
         async def listen():
@@ -168,7 +169,7 @@ class Tak(Replayed):
             parser["pytak"] = {"COT_URL": f"udp+ro://127.0.0.1:{port}"}
             reader, _ = await pytak.protocol_factory(parser["pytak"])
             replay = asyncio.get_running_loop().run_in_executor(
-                None, lambda: self.replay("--config", self.config(), "--cot", f"udp://127.0.0.1:{port}"))
+                None, lambda: self.replay("--config", config, "--cot", f"udp://127.0.0.1:{port}"))
             events = []
             while True:
                 with contextlib.suppress(asyncio.TimeoutError):
@@ -179,7 +180,31 @@ class Tak(Replayed):
                     await replay
                     return events
 
-        self.check_events(asyncio.run(listen()))
+        return asyncio.run(listen())
+
+    def test_udp_by_pytak(self):
+        self.check_events(self.received_by_pytak(self.config()))
+
+    def test_a_camera_looks_at_its_point_of_interest(self):
+        """From the vehicle along azimuth, elevation and range; the ground is level."""
+        events = [lxml.etree.fromstring(event) for event in
+                  self.received_by_pytak(self.write("config.json", {"cot": {"sensor_period_s": 0.001}}))]
+        vehicles = [event for event in events if event.get("type") == "a-f-A-M-H-Q"]
+        points = [event for event in events if event.get("type") == "b-m-p-s-p-i"]
+        self.assertGreater(len(points), 3)
+        self.assertEqual(len(vehicles), len(points))
+        for vehicle, point in zip(vehicles, points, strict=True):
+            self.assertEqual(vehicle.get("start"), point.get("start"))
+            self.assertEqual(point.find("detail/link").get("uid"), vehicle.get("uid"))
+            sensor = {name: float(vehicle.find("detail/sensor").get(name)) for name in ("azimuth", "elevation", "range", "fov", "vfov")}
+            there, here = ([float(event.find("point").get(name)) for name in ("lon", "lat")] for event in (point, vehicle))
+            along_m = sensor["range"] * math.cos(math.radians(sensor["elevation"]))
+            self.assertAlmostEqual(distance_m(here, there), along_m, delta=0.1)
+            north_m, east_m = (along_m * f(math.radians(sensor["azimuth"])) for f in (math.cos, math.sin))
+            moved = (here[0] + math.degrees(east_m / EARTH_RADIUS_M / math.cos(math.radians(here[1]))), here[1] + math.degrees(north_m / EARTH_RADIUS_M))
+            self.assertLess(distance_m(moved, there), 0.15)
+            self.assertAlmostEqual(sensor["range"] * math.sin(math.radians(-sensor["elevation"])), 20, delta=3)
+            self.assertAlmostEqual(math.tan(math.radians(sensor["fov"] / 2)) / math.tan(math.radians(sensor["vfov"] / 2)), 1280 / 720, delta=0.01)
 
     def test_tcp_is_a_stream_of_events(self):
         received = bytearray()

@@ -95,6 +95,11 @@ class Pages(unittest.TestCase):
                 if fragment:
                     self.assertIn(fragment, [anchor(text) for _, text in headings(target)], f"{page}: {link}")
 
+    def test_every_page_is_in_the_sites_navigation(self):
+        navigation = (SOURCE / "packaging/site/mkdocs.yml").read_text().splitlines()
+        for page in DOCS.glob("*.md"):
+            self.assertTrue(any(line.endswith(f": docs/{page.name}") for line in navigation), page)
+
 
 class AccuracyFigures(unittest.TestCase):
     """An accuracy is quoted as docs/results.md has it, which scripts/results.sh writes."""

@@ -40,6 +40,9 @@ static void refuse_null(geoloc_config *config, geoloc_geolocator *geolocator) {
   EXPECT_INVALID(geoloc_config_set_terrain(config, NULL), "grid");
   EXPECT_INVALID(geoloc_create(NULL, &created), "config");
   EXPECT_INVALID(geoloc_create(config, NULL), "geolocator");
+  size_t bytes = 1;
+  EXPECT_INVALID(geoloc_memory_needed(NULL, &bytes), "config");
+  EXPECT_INVALID(geoloc_memory_needed(config, NULL), "bytes");
   EXPECT_INVALID(geoloc_add_attitude(NULL, &attitude), "geolocator");
   EXPECT_INVALID(geoloc_add_attitude(geolocator, NULL), "attitude");
   EXPECT_INVALID(geoloc_add_position(NULL, &position), "geolocator");
@@ -191,6 +194,9 @@ static void refuse_settings(geoloc_config *config) {
   /* All faults of values at once, and no estimator. */
   EXPECT(geoloc_config_set_number(config, "joint.gate", -1.0) == GEOLOC_OK);
   EXPECT(geoloc_config_set_number(config, "max_detections", 1e9) == GEOLOC_OK);
+  size_t bytes = 1;
+  EXPECT_NO_SETTING(geoloc_memory_needed(config, &bytes), "max_detections must lie in [1, 10000], but is 1000000000");
+  EXPECT(bytes == 0);
   EXPECT_NO_SETTING(geoloc_create(config, &created), "max_detections must lie in [1, 10000], but is 1000000000");
   EXPECT(strstr(geoloc_last_error(), "joint.gate must lie in (0, 1000], but is -1") != NULL);
   EXPECT(created == NULL);

@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
+import os
+import pathlib
+import re
 import threading
 import unittest
 
@@ -54,6 +57,23 @@ class Survey:
 
 def ns(time_s):
     return int(np.rint(time_s * 1e9))
+
+
+class PythonMemory(unittest.TestCase):
+    """What is told of memory is the library's; tests/pipeline/memory_needed_test.cpp holds that against the heap."""
+
+    def test_is_the_figure_of_the_page(self):
+        page = (pathlib.Path(os.environ["GEOLOC_SOURCE_DIR"]) / "docs/library.md").read_text()
+        rows = re.findall(r"^\| (joint|paper)(?:, default)? \| (\d+) \| (\d+) \| ([\d.]+) MB \|$", page, re.MULTILINE)
+        self.assertEqual(len(rows), 4)
+        for method, tracks, detections, megabytes in rows:
+            settings = {"method": method, method: {"max_tracks": int(tracks)}, "max_detections": int(detections)}
+            told = geoloc.memory_needed(settings, camera=CAMERA)
+            self.assertAlmostEqual(told / 1e6, float(megabytes), delta=0.05 * float(megabytes) + 0.05)
+
+    def test_of_settings_that_cannot_be_is_refused_with_every_fault(self):
+        with self.assertRaisesRegex(ValueError, "max_detections(.|\\n)*joint.gate"):
+            geoloc.memory_needed(max_detections=0, joint={"gate": -1})
 
 
 class Flights(AppTest):

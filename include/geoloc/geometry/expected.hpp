@@ -18,7 +18,9 @@ class [[nodiscard]] Expected {
   bool has_value() const { return content_.index() == 0; }
 
   /// Defined only where has_value().
+  Value& operator*() { return *std::get_if<0>(&content_); }
   const Value& operator*() const { return *std::get_if<0>(&content_); }
+  Value* operator->() { return std::get_if<0>(&content_); }
   const Value* operator->() const { return std::get_if<0>(&content_); }
 
   /// Defined only where !has_value().

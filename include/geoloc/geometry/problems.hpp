@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,13 +21,5 @@ class Problems {
  private:
   std::vector<std::string> found_;
 };
-
-/// Throws std::invalid_argument that names all of them, unless there are none.
-inline void throw_if_any(const std::vector<std::string>& problems) {
-  if (problems.empty()) return;
-  std::string all;
-  for (const std::string& problem : problems) all += (all.empty() ? "" : "; ") + problem;
-  throw std::invalid_argument(all);
-}
 
 }  // namespace geoloc

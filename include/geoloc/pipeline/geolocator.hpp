@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geoloc/calibration/calibration.hpp"
 #include "geoloc/camera/detection.hpp"
+#include "geoloc/geometry/expected.hpp"
 #include "geoloc/pipeline/frame_outcome.hpp"
 #include "geoloc/pipeline/geolocator_config.hpp"
 #include "geoloc/projection/ground_fix.hpp"
@@ -44,11 +46,19 @@ class Geolocator {
     std::array<std::uint64_t, kNoFixReasons> no_fix{};  ///< detections without a ground point, by NoFix
   };
 
-  /// Throws std::invalid_argument naming every problem of the configuration.
+  /// Every problem of the configuration where it has any. Software without exceptions begins so.
+  static Expected<Geolocator, std::vector<std::string>> create(const GeolocatorConfig& config);
+
+  /// Throws std::invalid_argument naming every problem of the configuration (refuse.hpp).
   explicit Geolocator(const GeolocatorConfig& config);
   ~Geolocator();
   Geolocator(Geolocator&&) noexcept;
   Geolocator& operator=(Geolocator&&) noexcept;
+
+  /// What one of this configuration asks of the heap at construction, and holds from then on [bytes], without
+  /// what the heap adds of its own to each of some hundred blocks. Takes none of it. Refuses what the
+  /// constructor refuses. A terrain is its owner's.
+  static std::size_t memory_needed(const GeolocatorConfig& config);
 
   /// Samples may come in any order and at any rate; what cannot be used is counted (state().counters()).
   void add(const AttitudeSample& sample);

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "geoloc/geometry/geodetic.hpp"
@@ -30,9 +31,12 @@ class HeightGrid {
     double beyond_m = 0.0;  ///< so far outside the grid: the height is that of the edge's nearest place
   };
 
-  /// `heights_m`: row by row; not a number where the height is not known. Throws std::invalid_argument for a
-  /// layout that is no grid on Earth, another number of heights, infinite ones, and where none is known.
+  /// `heights_m`: row by row; not a number where the height is not known. Refuses (refuse.hpp) a layout that
+  /// is no grid on Earth, another number of heights, infinite ones, and where none is known: problems().
   HeightGrid(const Layout& layout, std::vector<float> heights_m);
+
+  /// Everything that keeps these from being a grid.
+  static std::vector<std::string> problems(const Layout& layout, const std::vector<float>& heights_m);
 
   /// nullopt where one of the four nodes around the place has no height.
   std::optional<Height> at(const Geodetic& place) const;

@@ -27,6 +27,9 @@ class AssignmentSolver {
   /// Room for problems of this size without further allocation.
   void reserve(int rows, int columns);
 
+  /// What a solver with that room asks of the heap.
+  static std::size_t bytes(int rows, int columns);
+
   /// costs(row, column), above minus infinity; max_cost finite. Returns the column of each row, or
   /// kUnassigned. The reference holds until the next call.
   const std::vector<std::size_t>& solve(const Eigen::Ref<const Eigen::MatrixXd>& costs, double max_cost);

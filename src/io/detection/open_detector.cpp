@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/detection/second_look.hpp"
 #include "geoloc/io/detection/tiled_detector.hpp"
 #include "geoloc/io/detection/yolo_detector.hpp"
@@ -32,7 +32,7 @@ std::filesystem::path second_look_file(const DetectorFiles& files) {
 }  // namespace
 
 std::unique_ptr<Detector> open_detector(const DetectorFiles& files, const DetectionConfig& configured) {
-  throw_if_any(configured.problems());
+  refuse_if_any(configured.problems());
   const DetectionConfig config = with_model_defaults(files, configured);
   const auto second_look = second_look_file(files);
   const DetectionConfig first = second_look.empty() ? config : proposing(config);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "boxes.hpp"
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/detection/yolo_detector.hpp"
 #include "network.hpp"
 #include "patch.hpp"
@@ -18,7 +18,7 @@ namespace geoloc::io {
 namespace {
 
 DetectionConfig checked(DetectionConfig config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
   if (config.confidence <= 0.0) config.confidence = kConfidenceOfOurModels;
   return config;
 }

@@ -3,14 +3,14 @@
 
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/detection/tiles.hpp"
 
 namespace geoloc::io {
 
 TiledDetector::TiledDetector(std::unique_ptr<Detector> detector, const DetectionConfig& config)
     : detector_(std::move(detector)), config_(config) {
-  throw_if_any(config_.problems());
+  refuse_if_any(config_.problems());
 }
 
 std::vector<Detection> TiledDetector::detect(const cv::Mat& bgr) {

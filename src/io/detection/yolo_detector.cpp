@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/detection/yolo_decode.hpp"
 #include "network.hpp"
 #include "picture.hpp"
@@ -34,7 +34,7 @@ std::vector<std::string> names_for(const DetectorFiles& files, const DetectionNe
 }
 
 DetectionConfig checked(const DetectorFiles& files, const DetectionConfig& config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
   return with_model_defaults(files, config);
 }
 

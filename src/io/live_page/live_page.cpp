@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "http_server.hpp"
 
 namespace geoloc::io {
@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kHeartbeat{1000};
 constexpr std::size_t kShortConnections = 32;  // besides the pages' streams: files and pictures
 
 HttpLimits limits_of(const LivePageConfig& config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
   HttpLimits limits;
   limits.event_streams = static_cast<std::size_t>(config.max_pages);
   limits.connections = limits.event_streams + kShortConnections;

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "mav_numbers.hpp"
 #include "timing.hpp"
 
@@ -64,7 +64,7 @@ VehicleLink::VehicleLink(const MavlinkConfig& config, bool has_gimbal)
       choice_(config.system_id),
       gimbal_(config.gimbal),
       camera_(config) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
 }
 
 bool VehicleLink::consume(HostTime received_at, const std::uint8_t* data, std::size_t size,

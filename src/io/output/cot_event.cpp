@@ -13,7 +13,6 @@
 namespace geoloc::io {
 namespace {
 
-constexpr double kUnknown = 9999999.0;  // the protocol's value for it
 constexpr std::size_t kLongestName = 32;
 
 double known_or(double value, double otherwise) {
@@ -48,7 +47,7 @@ std::string to_cot(const ObjectReport& object, const CotContext& context, const 
   const double p = config.error_probability;
   const double ce = circular_error(object.ellipse.sigma_major_m, object.ellipse.sigma_minor_m, p);
   const double sigma_height_m = std::hypot(config.sigma_height_m, object.height.sigma_m.value_or(0.0));
-  const double le = object.height.ellipsoid_m ? circular_error(sigma_height_m, 0.0, p) : kUnknown;
+  const double le = object.height.ellipsoid_m ? circular_error(sigma_height_m, 0.0, p) : kCotUnknown;
   const std::string name = escape_markup(clean_text(object.class_name, kLongestName));
   const HostTime stale_at =
       context.sent_at + (context.is_gone ? Duration::zero() : from_seconds(config.stale_s));
@@ -60,8 +59,8 @@ std::string to_cot(const ObjectReport& object, const CotContext& context, const 
       "<remarks>{}</remarks></detail></event>\n",
       escape_markup(context.uid), type_of(object, config), iso8601(context.sent_at),
       iso8601(std::min(object.last_seen, context.sent_at)), iso8601(stale_at), object.position.latitude_deg,
-      object.position.longitude_deg, known_or(object.height.ellipsoid_m.value_or(kUnknown), kUnknown),
-      known_or(ce, kUnknown), known_or(le, kUnknown), name, object.id,
+      object.position.longitude_deg, known_or(object.height.ellipsoid_m.value_or(kCotUnknown), kCotUnknown),
+      known_or(ce, kCotUnknown), known_or(le, kCotUnknown), name, object.id,
       object.height.ellipsoid_m ? "Calculated" : "???", track_of(object), remarks(object, context.is_gone));
 }
 

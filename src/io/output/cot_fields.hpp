@@ -22,6 +22,11 @@ void visit_fields(Visitor& v, CotConfig& cot) {
   v.field("stale_s", cot.stale_s, Range::closed(0.5, 86400), "s",
           "Time after its last event at which an object is out of date; at least period_s");
   v.relation("stale_s", cot.stale_s, cot.stale_s >= cot.period_s, "must be at least period_s");
+  v.field("sensor_period_s", cot.sensor_period_s, Range::closed(0, 3600), "s",
+          "Time after which the vehicle, what its camera sees and the ground at the image's centre are sent "
+          "again; 0: they are not sent");
+  v.field("vehicle_type", cot.vehicle_type, kType, "",
+          "CoT type of the vehicle; a-f-A-M-H-Q: a friendly drone");
   v.field("error_probability", cot.error_probability, Range::closed(0.1, 0.999), "",
           "Probability that ce and le hold the object; 0.9: CE90 and LE90, as ATAK takes them");
   v.field("sigma_height_m", cot.sigma_height_m, Range::above(0, 1000), "m",

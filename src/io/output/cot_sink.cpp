@@ -5,8 +5,9 @@
 #include <chrono>
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/output/cot_event.hpp"
+#include "geoloc/io/output/cot_sensor.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -24,16 +25,28 @@ std::string whole_seconds(HostTime time) {
   return std::to_string(std::chrono::duration_cast<std::chrono::seconds>(time.time_since_epoch()).count());
 }
 
+/// Height of home above the ellipsoid, as the objects know it.
+std::optional<double> home_ellipsoid_m(const std::vector<ObjectReport>& objects) {
+  for (const ObjectReport& object : objects) {
+    if (object.height.ellipsoid_m) return *object.height.ellipsoid_m - object.height.above_home_m;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 CotSink::CotSink(std::string target, const CotConfig& config, const CotConnection::Tell& tell)
     : target_(std::move(target)), config_(config), connection_(parse_cot_endpoint(target_), config, tell) {
-  throw_if_any(config.problems());
+  refuse_if_any(config.problems());
 }
 
 void CotSink::on_frame(const OutputFrame& frame) {
   if (run_.empty()) run_ = whole_seconds(frame.captured_at);
   objects_ = frame.objects;
+  if (frame.view) {
+    view_ = frame.view;
+    view_at_ = frame.captured_at;
+  }
   send_due(kMostAtOnce);
 }
 
@@ -62,6 +75,7 @@ void CotSink::send_due(std::size_t most) {
   const auto now = Clock::now();
   connection_.poll(now);
   if (std::exchange(connections_, connection_.counts().connections) != connections_) tell_all_again();
+  send_view();
   const auto is_new = [](const std::optional<Clock::time_point>& told) { return !told; };
   const auto is_due = [&](const std::optional<Clock::time_point>& told) {
     return !told || now - *told >= from_seconds(config_.period_s);
@@ -104,6 +118,19 @@ void CotSink::send_gone() {
     if (!is_there) send(told->second.object, true);
     told = is_there ? std::next(told) : told_.erase(told);
   }
+}
+
+/// Each view once.
+void CotSink::send_view() {
+  const auto now = Clock::now();
+  const bool is_due = !view_sent_at_ || now - *view_sent_at_ >= from_seconds(config_.sensor_period_s);
+  if (!view_ || !(config_.sensor_period_s > 0.0) || !is_due || !connection_.is_ready()) return;
+  CotViewContext context{config_.uid_prefix + "." + run_, view_at_, utc_now(), home_ellipsoid_m(objects_)};
+  connection_.send(vehicle_to_cot(*view_, context, config_));
+  const std::string point = point_of_interest_to_cot(*view_, context, config_);
+  if (!point.empty() && connection_.is_ready()) connection_.send(point);
+  view_sent_at_ = now;
+  view_.reset();
 }
 
 void CotSink::send(const ObjectReport& object, bool is_gone) {

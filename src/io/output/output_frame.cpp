@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/output/output_frame.hpp"
 
+#include "geoloc/camera/field_of_view.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/projection/projector.hpp"
@@ -13,10 +14,25 @@ GroundPoint ground_point(const LocalFrame& frame, const Eigen::Vector2d& positio
   return {frame.to_geodetic(position_in_enu), position_in_enu};
 }
 
+Eigen::Vector2d centre_px(const CameraIntrinsics& image) {
+  return {0.5 * image.width_px - 0.5, 0.5 * image.height_px - 0.5};
+}
+
 std::optional<GroundPoint> seen_at(const Eigen::Vector2d& pixel, const Geolocator& geolocator) {
   const auto fix = geolocator.projector().project(pixel, geolocator.view());
   if (!fix) return std::nullopt;
   return ground_point(*geolocator.local_frame(), fix->position_in_enu);
+}
+
+CameraSight sight(const Geolocator& geolocator, double convergence_rad) {
+  const FrameView& view = geolocator.view();
+  const CameraIntrinsics& image = geolocator.projector().camera().intrinsics();
+  const Eigen::Vector2d focal_px = geolocator.projector().focal_px(view);
+  CameraSight sight = sight_of(view.enu_from_camera.rotation, convergence_rad);
+  sight.horizontal_view_deg = angle_of_view_rad(image.width_px, focal_px.x()) * kDegPerRad;
+  sight.vertical_view_deg = angle_of_view_rad(image.height_px, focal_px.y()) * kDegPerRad;
+  if (const auto fix = geolocator.projector().project(centre_px(image), view)) sight.range_m = fix->range_m;
+  return sight;
 }
 
 std::optional<std::array<GroundPoint, 4>> footprint(const Geolocator& geolocator) {
@@ -47,7 +63,8 @@ ViewReport report_view(const Geolocator& geolocator) {
   report.yaw_deg = wrap_to_pi(angles.yaw_rad - convergence_rad) * kDegPerRad;
   report.enu_from_camera = view.enu_from_camera;
   report.footprint = footprint(geolocator);
-  report.image_centre = seen_at({0.5 * image.width_px - 0.5, 0.5 * image.height_px - 0.5}, geolocator);
+  report.image_centre = seen_at(centre_px(image), geolocator);
+  report.sight = sight(geolocator, convergence_rad);
   return report;
 }
 

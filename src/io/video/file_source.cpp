@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/video/camera_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "gst_pipeline.hpp"
@@ -34,7 +34,7 @@ class FileSource::Impl {
   Impl(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
        const HostClock& clock)
       : pace_(playback.pace), starts_at_(playback.starts_at), config_(config), clock_(clock) {
-    throw_if_any(config_.problems());
+    refuse_if_any(config_.problems());
     if (!std::filesystem::is_regular_file(file))
       throw std::runtime_error(file.string() + ": there is no such file");
     init_gstreamer();

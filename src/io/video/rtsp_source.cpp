@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/video/camera_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "geoloc/io/video/stream_url.hpp"
@@ -31,7 +31,7 @@ class RtspSource::Impl {
       throw std::invalid_argument("not an RTSP address: " + without_credentials(url_) +
                                   " (expected rtsp://[user:password@]host[:port]/path)");
     }
-    throw_if_any(config_.problems());
+    refuse_if_any(config_.problems());
     init_gstreamer();
     require_rtsp_elements();
     thread_ = std::thread{[this] { run(); }};

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/io/recording/recording_writer.hpp"
 #include "geoloc/sim/flight/random_stream.hpp"
 #include "geoloc/sim/random.hpp"
@@ -96,7 +97,7 @@ std::string injected_json(const Flight& flight, const RecordingSettings& setting
 
 void write_recording(const std::filesystem::path& folder, const Flight& flight,
                      const RecordingSettings& settings) {
-  throw_if_any(settings.problems());
+  refuse_if_any(settings.problems());
   const std::vector<Eigen::Vector2d> targets_in_enu = make_targets(settings.run);
   const std::vector<io::RecordedFrame> frames = generate_frames(flight, settings, targets_in_enu);
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/sim/flight/random_stream.hpp"
 #include "geoloc/sim/flight/run_settings.hpp"
 
@@ -75,7 +76,7 @@ SimulatedDetector::SimulatedDetector(const DetectorModel& model, const CameraInt
       targets_in_enu_(std::move(targets_in_enu)),
       detections_(stream_seed(seed, RandomStream::kDetections)),
       clutter_(stream_seed(seed, RandomStream::kClutter)) {
-  throw_if_any(model.problems());
+  refuse_if_any(model.problems());
 }
 
 std::vector<Detection> SimulatedDetector::detect(const Rigid3d& enu_from_camera, double zoom) {

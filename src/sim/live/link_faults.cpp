@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 
 namespace geoloc::sim {
 
@@ -18,7 +19,7 @@ std::vector<std::string> LinkFaults::problems() const {
 }
 
 FaultyLink::FaultyLink(const LinkFaults& faults, std::uint64_t seed) : faults_(faults), random_(seed) {
-  throw_if_any(faults.problems());
+  refuse_if_any(faults.problems());
 }
 
 void FaultyLink::send(Datagram datagram, HostTime now) {

@@ -12,6 +12,7 @@
 #include "geoloc/camera/field_of_view.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "geoloc/sim/flight/random_stream.hpp"
 #include "geoloc/sim/random.hpp"
 #include "sim/live/log_builder.hpp"
@@ -80,7 +81,7 @@ std::vector<std::string> ZoomSettings::problems() const {
 
 Flight with_zoom(const Flight& flight, const ZoomSettings& settings, const CameraIntrinsics& camera,
                  std::uint64_t seed) {
-  throw_if_any(settings.problems());
+  refuse_if_any(settings.problems());
   Random random(stream_seed(seed, RandomStream::kZoom));
   const TimeSpan span = flight.truth.span();
   const double nominal = 1.0 + kNominalSigma * random.normal();

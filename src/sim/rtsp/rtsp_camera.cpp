@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "io/video/sei_buffer.hpp"
 
 namespace geoloc::sim {
@@ -196,7 +197,7 @@ std::vector<std::string> RtspCameraSettings::problems() const {
 }
 
 RtspCamera::RtspCamera(const RtspCameraSettings& settings) {
-  throw_if_any(settings.problems());
+  refuse_if_any(settings.problems());
   gst_init(nullptr, nullptr);
   for (const char* const needed : {"appsrc", "videoconvert", "x264enc", "h264parse", "rtph264pay"}) {
     const GstObjectPtr<GstElementFactory> factory(gst_element_factory_find(needed));

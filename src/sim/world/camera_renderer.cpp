@@ -4,6 +4,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "geoloc/geometry/problems.hpp"
+#include "geoloc/geometry/refuse.hpp"
 #include "ground.hpp"
 #include "ground_grid.hpp"
 #include "ground_painter.hpp"
@@ -51,7 +52,7 @@ CameraRenderer::CameraRenderer(const CameraIntrinsics& intrinsics, const Scene& 
 CameraRenderer::CameraRenderer(const CameraIntrinsics& intrinsics, const Scene& scene,
                                std::shared_ptr<const Ground> ground, const RenderSettings& settings)
     : objects_(scene.objects), shadows_(scene.shadows), ground_(std::move(ground)), settings_(settings) {
-  throw_if_any(settings.problems());
+  refuse_if_any(settings.problems());
   buffers_ = std::make_unique<Buffers>(intrinsics, settings);
 }
 

@@ -102,6 +102,24 @@ TEST(CotSink, ManyObjectsAreToldAFewAtATime) {
   EXPECT_TRUE(told_after_a_frame().empty());
 }
 
+TEST(CotSink, TellsWhatTheCameraSeesWhereThatIsWanted) {
+  OutputFrame frame = frame_of({});
+  frame.view.emplace();
+  frame.view->image_centre.emplace();
+  Sent without;
+  without.sink.on_frame(frame);
+  EXPECT_TRUE(without.is_silent());
+
+  LoopbackSocket receiver{SOCK_DGRAM};
+  CotConfig config;
+  config.sensor_period_s = 3600.0;
+  CotSink sink{receiver.url("udp"), config, [](const std::string&) {}};
+  for (int i = 0; i < 10; ++i) sink.on_frame(frame);
+  EXPECT_NE(receive(receiver.descriptor()).find("uid=\"geoloc.1795300000.vehicle\""), std::string::npos);
+  EXPECT_NE(receive(receiver.descriptor()).find("uid=\"geoloc.1795300000.spi\""), std::string::npos);
+  EXPECT_TRUE(receive(receiver.descriptor(), MSG_DONTWAIT).empty());
+}
+
 /// The run's last objects are fewer than the last frame's.
 TEST(CotSink, SaysAtTheEndWhatIsGone) {
   Sent sent;

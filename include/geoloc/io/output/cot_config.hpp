@@ -13,6 +13,8 @@ struct CotConfig {
   std::string type = "a-u-G";                ///< unknown, on the ground
   std::map<std::string, std::string> types;  ///< by class name
   double period_s = 10.0;
+  double sensor_period_s = 0.0;  ///< of the vehicle and what its camera sees; 0: they are not sent
+  std::string vehicle_type = "a-f-A-M-H-Q";  ///< friendly, in the air, a rotary-wing drone
   double stale_s = 300.0;
   double error_probability = 0.9;  ///< CE90, as ATAK takes it
   double sigma_height_m = 2.0;     ///< of the ground above sea level

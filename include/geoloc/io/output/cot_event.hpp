@@ -8,6 +8,9 @@
 
 namespace geoloc::io {
 
+/// The protocol's value for figures that are not known.
+inline constexpr double kCotUnknown = 9999999.0;
+
 /// The content of an event besides the object itself.
 struct CotContext {
   std::string uid;

@@ -16,8 +16,9 @@ namespace geoloc::io {
 
 /// Sends confirmed objects as Cursor on Target events: immediately, then every cot.period_s and at the end of
 /// the run. Where there are more than a link bears, some after each frame, new ones first. An object that is
-/// gone is sent once more as stale. An object's uid is `prefix.run.id`, where `run` is the time of the run's
-/// first frame: it stays the same in a replay and is never that of another object.
+/// gone is sent once more as stale. Where cot.sensor_period_s says so, the vehicle
+/// and what its camera sees go with them. An object's uid is `prefix.run.id`, where `run` is the time of the
+/// run's first frame: it stays the same in a replay and is never that of another object.
 class CotSink final : public Sink {
  public:
   CotSink(std::string target, const CotConfig& config, const CotConnection::Tell& tell);
@@ -38,6 +39,7 @@ class CotSink final : public Sink {
     std::optional<Clock::time_point> at;  // nullopt: not on this connection
   };
 
+  void send_view();
   void tell_all_again();
   void send_due(std::size_t most);
   template <typename IsWanted>
@@ -49,7 +51,10 @@ class CotSink final : public Sink {
   std::string target_;
   CotConfig config_;
   CotConnection connection_;
-  std::string run_;                     // of the uid
+  std::string run_;                 // of the uid
+  std::optional<ViewReport> view_;  // the last one, until it is told
+  HostTime view_at_;
+  std::optional<Clock::time_point> view_sent_at_;
   std::vector<ObjectReport> objects_;   // in order of their ids
   std::uint64_t next_due_ = 0;          // where the next round begins
   std::map<std::uint64_t, Told> told_;  // by the object's id

@@ -12,6 +12,7 @@
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/rigid3.hpp"
 #include "geoloc/geometry/time.hpp"
+#include "geoloc/io/output/camera_sight.hpp"
 #include "geoloc/io/output/estimator_report.hpp"
 #include "geoloc/io/output/object_report.hpp"
 #include "geoloc/io/output/raw_fixes.hpp"
@@ -37,6 +38,7 @@ struct ViewReport {
   /// ground.
   std::optional<std::array<GroundPoint, 4>> footprint;
   std::optional<GroundPoint> image_centre;
+  CameraSight sight;
 };
 
 /// One detection of the frame with its position, before any tracking.
