@@ -17,13 +17,13 @@ namespace geoloc::room {
 template <class Owner, class Value>
 std::size_t reserve(Owner* owner, std::vector<Value> Owner::*buffer, std::size_t count) {
   if (owner != nullptr) (owner->*buffer).reserve(count);
-  return count * sizeof(Value);
+  return count * sizeof(Value);  // NOLINT(bugprone-sizeof-expression): also where these are pointers
 }
 
 template <class Owner, class Value>
 std::size_t resize(Owner* owner, std::vector<Value> Owner::*buffer, std::size_t count) {
   if (owner != nullptr) (owner->*buffer).resize(count);
-  return count * sizeof(Value);
+  return count * sizeof(Value);  // NOLINT(bugprone-sizeof-expression): also where these are pointers
 }
 
 template <class Owner, class Scalar, int Rows, int Columns, int Options, int MaxRows, int MaxColumns>
