@@ -39,6 +39,13 @@ struct Positions final : io::TelemetrySink {
   std::vector<bool> is_v2;
 };
 
+/// The recorded flight has no more than these.
+io::MavlinkConfig at_the_told_rates() {
+  io::MavlinkConfig config;
+  config.fast_rate_hz = 0.0;
+  return config;
+}
+
 /// The vehicle and geoloc's link, in steps of the test's clock. The link may be silent.
 class Px4Vehicle : public ::testing::Test {
  protected:
@@ -60,7 +67,7 @@ class Px4Vehicle : public ::testing::Test {
   Flight flight_ = as_px4(load("stock_path1"));
   FlightClock clock_{{at(100.0), at(160.0)}, 1.0};
   MavlinkVehicle vehicle_;
-  io::VehicleLink link_{io::MavlinkConfig{}};
+  io::VehicleLink link_{at_the_told_rates()};
   Positions sink_;
   HostTime now_ = kStart;
 };
