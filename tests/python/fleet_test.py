@@ -42,7 +42,7 @@ class PythonFleets(AppTest):
         results, _ = self.flights()
         fused = geoloc.fuse(result.flight_summary() for result in results)
         result, summary = results[0], results[0].flight_summary("mine")
-        self.assertEqual((summary.flight, summary.sequence), ("mine", len(result.trajectory)))
+        self.assertEqual((summary.flight, summary.sequence), ("mine", len(result.trajectory) + 1))
         self.assertEqual(list(summary.objects["id"]), list(result.objects["id"]))
         positions, wanted = summary.objects["position_in_enu_m"], result.objects["position_in_enu_m"]
         np.testing.assert_allclose(positions[:, :2], wanted, atol=1e-3)
