@@ -16,9 +16,8 @@ std::string delays_in_words(const FrameDelays& delays) {
   if (delays.total.count() == 0) return {};
   constexpr double kMedian = 0.5, kNearlyAll = 0.99;
   return fmt::format(
-      "from capture to objects {:.0f} ms (99 % within {:.0f} ms): {:.0f} ms until the frame was here, {:.0f} "
-      "ms for the "
-      "detector, {:.0f} ms for telemetry and estimate (medians)",
+      "from capture to objects {:.0f} ms (99 % within {:.0f} ms): {:.0f} ms until the frame was here, "
+      "{:.0f} ms for the detector, {:.0f} ms for telemetry and estimate (medians)",
       delays.total.ms(kMedian), delays.total.ms(kNearlyAll), delays.to_arrival.ms(kMedian),
       delays.in_search.ms(kMedian), delays.in_wait.ms(kMedian));
 }

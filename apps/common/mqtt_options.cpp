@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "geoloc/io/endpoint.hpp"
 #include "geoloc/io/text_file.hpp"
 
 namespace geoloc::apps {
@@ -25,10 +26,6 @@ std::string password_of(const std::string& file) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   if (text.empty()) throw std::runtime_error(file + ": is empty");
   return text;
-}
-
-bool is_on_this_computer(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
 }
 
 }  // namespace
@@ -83,7 +80,7 @@ io::MqttAccess mqtt_access(const MqttOptions& options) {
 
 std::string warning_of(const io::MqttAccess& access) {
   const bool is_exposed =
-      !access.password.empty() && !access.address.is_tls && !is_on_this_computer(access.address.host);
+      !access.password.empty() && !access.address.is_tls && !io::is_loopback(access.address.host);
   return is_exposed
              ? "WARNING: --mqtt sends its password and all positions over the network unencrypted; mqtts:// "
                "encrypts them"

@@ -22,7 +22,7 @@ void leave_out_nearest(const Eigen::Vector2d& place, std::vector<Eigen::Vector2d
   if (nearest != targets.end()) targets.erase(nearest);
 }
 
-/// Of what the survey did not tell: its objects, and the targets nearest to them, are left out.
+/// The score without the survey: its objects, and the targets nearest to them, are left out.
 std::string score_of(const io::RunRecord& run) {
   std::vector<Eigen::Vector2d> places, targets = run.targets;
   std::vector<Gaussian2> gaussians;

@@ -103,7 +103,7 @@ void FleetService::tell_outputs() {
 /// What was kept before comes first, and is kept already.
 void FleetService::add_stores() {
   if (!options_.state_folder.empty()) {
-    recall(io::read_fleet_folder(options_.state_folder), true);
+    recall(io::read_fleet_folder(options_.state_folder));
     outboxes_.push_back(std::make_shared<io::SummaryOutbox>());
     outputs_.add(std::make_unique<io::FleetFolderSink>(options_.state_folder, outboxes_.back()));
   }
@@ -137,15 +137,16 @@ void FleetService::take_new(FlightSummary summary, std::string bytes) {
   for (const auto& outbox : outboxes_) outbox->put(flight, shared);
 }
 
-/// Of two that are kept, the database's ids count: it has the history, too.
-void FleetService::recall(const io::KeptFleet& kept, bool with_ids) {
+/// Where a folder and a database have kept ids, the database's, which is read last, replace the others: it
+/// has the history, too.
+void FleetService::recall(const io::KeptFleet& kept) {
   for (const std::string& fault : kept.faults) say(fault);
   for (const FlightSummary& summary : kept.summaries) {
     if (!take(summary, fleet_)) continue;
     has_news_ = true;
     if (inbox_) inbox_->know(summary, io::summary_to_bytes(summary).size());
   }
-  if (with_ids && kept.ids.next > 1) ids_ = kept.ids;
+  if (kept.ids.next > 1) ids_ = kept.ids;
 }
 
 /// Without the ids that objects have in the database there is nothing to begin with: it is waited for. False
@@ -156,7 +157,7 @@ bool FleetService::recall_database(const StopSignal& stop) {
   bool has_told = false;
   while (!stop.is_requested()) {
     try {
-      recall(database.read(), true);
+      recall(database.read());
       if (has_told) say("--postgis " + database.name() + ": connected");
       if (database.is_exposed())
         say("WARNING: --postgis is not encrypted; ?sslmode=verify-full in its URL asks for that");

@@ -42,7 +42,7 @@ class FleetService {
   void add_outputs();
   void take_files();
   bool recall_database(const StopSignal& stop);
-  void recall(const io::KeptFleet& kept, bool with_ids);
+  void recall(const io::KeptFleet& kept);
   void take_new(FlightSummary summary, std::string bytes);
   void fuse_now();
   void follow(const StopSignal& stop);

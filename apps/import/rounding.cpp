@@ -12,8 +12,7 @@
 namespace geoloc::apps {
 namespace {
 
-/// Of the rate's change, variance in a second: what is usual, and what an interval's own change is weighed
-/// against.
+/// Usual variance of the rate's change in a second, against which an interval's own change is weighed.
 constexpr double kUsualChange = 0.1;
 constexpr int kRounds = 12;
 /// The cells count as Gaussian for so many rounds, until the rates' changes are known roughly.
@@ -37,7 +36,7 @@ struct Moments {
   double variance = 0.0;
 };
 
-/// Of a Gaussian that is cut off outside of `middle` -+ `half`.
+/// Moments of a Gaussian that is cut off outside of `middle` -+ `half`.
 Moments moments_within(const Moments& gaussian, double middle, double half) {
   constexpr double kLeastProbability = 1e-6;
   const double sigma = std::sqrt(gaussian.variance);

@@ -7,7 +7,7 @@
 
 namespace geoloc::apps {
 
-/// Of latitude and, at the equator, of longitude.
+/// Length of a degree of latitude and, at the equator, of longitude.
 inline constexpr double kMetresPerDegree = 111'319.5;
 
 /// From one position to another, in east, north, up [m], near enough to each other for a plane.

@@ -9,34 +9,34 @@ import numpy.typing as npt
 from . import _core
 
 _TIME = "datetime64[ns]"
+_PLACE = [("latitude_deg", "f8"), ("longitude_deg", "f8")]
+_KNOWN = [("id", "u8"), ("class_id", "i8"), ("hits", "i8"), ("confidence", "f8")]
+_WHERE = [
+    *_PLACE,
+    ("height_above_home_m", "f8"),
+    ("sigma_major_m", "f8"),
+    ("sigma_minor_m", "f8"),
+    ("sigma_azimuth_deg", "f8"),
+    ("sigma_height_m", "f8"),
+]
+_SEEN = [("first_seen", _TIME), ("last_seen", _TIME)]
 
 #: Objects. Angles are in degrees from true north; NaN is what is not known.
 OBJECT = np.dtype(
     [
-        ("id", "u8"),
-        ("class_id", "i8"),
-        ("hits", "i8"),
-        ("confidence", "f8"),
-        ("latitude_deg", "f8"),
-        ("longitude_deg", "f8"),
-        ("height_above_home_m", "f8"),
-        ("sigma_major_m", "f8"),
-        ("sigma_minor_m", "f8"),
-        ("sigma_azimuth_deg", "f8"),
-        ("sigma_height_m", "f8"),
+        *_KNOWN,
+        *_WHERE,
         ("position_in_enu_m", "f8", 2),
         ("covariance_m2", "f8", (2, 2)),
         ("velocity_in_enu_mps", "f8", 2),
         ("velocity_covariance_m2ps2", "f8", (2, 2)),
-        ("first_seen", _TIME),
-        ("last_seen", _TIME),
+        *_SEEN,
         ("is_confirmed", "?"),
     ],
     align=True,
 )
 
 _BOX = [("box_px", "f8", 4), ("confidence", "f8"), ("class_id", "i8")]
-_PLACE = [("latitude_deg", "f8"), ("longitude_deg", "f8")]
 
 #: Detections of the frame located last, where they meet the ground. ground_from_pixel_mppx is d(east, north) / d(u, v).
 FIX = np.dtype(
@@ -62,15 +62,10 @@ RAW_FIX = np.dtype(
 #: Where the vehicle was at the located frames of a run.
 TRAJECTORY = np.dtype([("captured_at", _TIME), *_PLACE, ("position_in_enu_m", "f8", 3)], align=True)
 
-_SEEN = [("first_seen", _TIME), ("last_seen", _TIME)]
-
 #: Objects of one flight's summary; positions are east, north, up in the flight's local frame.
 SUMMARY_OBJECT = np.dtype(
     [
-        ("id", "u8"),
-        ("class_id", "i8"),
-        ("hits", "i8"),
-        ("confidence", "f8"),
+        *_KNOWN,
         ("position_in_enu_m", "f8", 3),
         ("own_covariance_m2", "f8", (3, 3)),
         *_SEEN,
@@ -81,17 +76,8 @@ SUMMARY_OBJECT = np.dtype(
 #: Objects of the map of many flights; covariance_m2 is that of the absolute position: east, north, up.
 FUSED_OBJECT = np.dtype(
     [
-        ("id", "u8"),
-        ("class_id", "i8"),
-        ("hits", "i8"),
-        ("confidence", "f8"),
-        ("latitude_deg", "f8"),
-        ("longitude_deg", "f8"),
-        ("height_above_home_m", "f8"),
-        ("sigma_major_m", "f8"),
-        ("sigma_minor_m", "f8"),
-        ("sigma_azimuth_deg", "f8"),
-        ("sigma_height_m", "f8"),
+        *_KNOWN,
+        *_WHERE,
         ("position_in_enu_m", "f8", 3),
         ("covariance_m2", "f8", (3, 3)),
         *_SEEN,

@@ -22,8 +22,8 @@ constexpr double kIndependent_s = 0.5;
 /// frames for.
 constexpr double kLeastGain = 10.0, kLeastLead = 6.0, kNoGain = 5.0;
 /// Attitudes that are off by a degree for seconds look like another latency to pairs of frames: where known
-/// places do not agree, pairs must tell twice as much; where places tell it, pairs may speak against it by no
-/// more than that.
+/// places do not agree (kLeastAgreement), pairs must tell twice as much; where places tell it, pairs may
+/// speak against it by kMostAgainst.
 constexpr double kLeastAgreement = 1.0, kLeastGainByPairsAlone = 20.0, kMostAgainst = 2.0;
 /// Frames, and their span, before any is judged.
 constexpr std::size_t kLeastFrames = 10;

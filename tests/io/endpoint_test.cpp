@@ -17,6 +17,13 @@ TEST(Endpoint, IsAHostAndAPort) {
   EXPECT_EQ(parse_endpoint("[::1]:65535")->port, 65535);
 }
 
+TEST(Endpoint, OfThisComputerIsItsNameOrItsLoopbackAddress) {
+  for (const char* const host : {"localhost", "::1", "127.0.0.1", "127.1.2.3"})
+    EXPECT_TRUE(is_loopback(host)) << host;
+  for (const char* const host : {"", "0.0.0.0", "::", "128.0.0.1", "localhost.example", "10.127.0.1"})
+    EXPECT_FALSE(is_loopback(host)) << host;
+}
+
 TEST(Endpoint, IsAPortAloneOnlyWhereItsHostIsKnown) {
   EXPECT_EQ(parse_endpoint("80", "here")->host, "here");
   EXPECT_EQ(parse_endpoint("there:80", "here")->host, "there");

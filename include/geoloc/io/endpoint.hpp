@@ -22,6 +22,11 @@ inline bool is_host_character(char c) {
   return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-';
 }
 
+/// Whether a host is this computer, by its name or its loopback address. It is not looked up.
+inline bool is_loopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.rfind("127.", 0) == 0;
+}
+
 /// The whole text as 0 to 65535, digits only.
 inline std::optional<std::uint16_t> parse_port(const std::string& text) {
   std::uint16_t port = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geoloc/geometry/refuse.hpp"
+#include "geoloc/io/endpoint.hpp"
 #include "http_server.hpp"
 
 namespace geoloc::io {
@@ -84,8 +85,7 @@ bool LivePage::note(std::uint64_t object_id, const ObjectNote& note) {
 }
 
 bool LivePage::is_open_to_network() const {
-  const std::string& host = endpoint_.host;
-  return host != "localhost" && host != "::1" && host.rfind("127.", 0) != 0;
+  return !is_loopback(endpoint_.host);
 }
 
 bool LivePage::is_on_every_interface() const {

@@ -9,14 +9,14 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// The link is judged by so long.
+/// Length of the windows by which the link is judged.
 constexpr Duration kWindow = 5s;
 /// A radio of 57,600 baud takes 50 ms and more, Ethernet, Wi-Fi and a fast serial port 1 to 20 ms.
 constexpr Duration kShortTrip = 30ms;
 constexpr std::size_t kLeastTrips = 3;
 /// More lost messages than before, as a share, show that they are too many.
 constexpr double kMoreLost = 0.02;
-/// The rate is given so many windows to come.
+/// Windows that the fast rate is given to come.
 constexpr int kWindowsToTakeEffect = 2;
 constexpr Duration kLongestPause = 16min;
 
@@ -32,44 +32,47 @@ void LinkPace::on_round_trip(Duration trip) {
 
 bool LinkPace::update(HostTime now, const Heard& heard) {
   if (window_end_ && now < *window_end_) return false;
-  bool has_changed = false;
+  const bool was_fast = is_fast_;
   if (window_end_) {
     const auto frames = static_cast<double>(heard.frames - at_begin_.frames);
     const auto lost = static_cast<double>(heard.lost - at_begin_.lost);
     ++windows_;
-    has_changed = judge(now, heard, lost / std::max(1.0, frames + lost));
+    const double lost_share = lost / std::max(1.0, frames + lost);
+    if (is_fast_) {
+      if (!bears_it(heard, lost_share)) give_up(now);
+    } else if (is_quick() && (!pause_until_ || now >= *pause_until_)) {
+      try_fast(lost_share);
+    }
   }
   window_end_ = now + kWindow;
   at_begin_ = heard;
   trip_count_ = 0;
-  return has_changed;
+  return is_fast_ != was_fast;
 }
 
-bool LinkPace::judge(HostTime now, const Heard& heard, double lost_share) {
-  const auto trip = usual_trip();
-  const bool is_quick = trip && *trip <= kShortTrip;
-  if (!is_fast_) return is_quick && (!pause_until_ || now >= *pause_until_) && try_fast(lost_share);
+bool LinkPace::bears_it(const Heard& heard, double lost_share) const {
   const bool has_come = heard.is_fast || windows_ < kWindowsToTakeEffect;
-  const bool is_full = !is_quick || lost_share > usually_lost_ + kMoreLost;
-  return (is_full || !has_come) && give_up(now);
+  return has_come && is_quick() && lost_share <= usually_lost_ + kMoreLost;
 }
 
-bool LinkPace::try_fast(double lost_share) {
+void LinkPace::try_fast(double lost_share) {
   is_fast_ = true;
   windows_ = 0;
   usually_lost_ = lost_share;
-  return true;
 }
 
-bool LinkPace::give_up(HostTime now) {
+void LinkPace::give_up(HostTime now) {
   is_fast_ = false;
-  windows_ = 0;
   pause_until_ = now + pause_;
   pause_ = std::min<Duration>(2 * pause_, kLongestPause);
-  return true;
 }
 
-/// The median of the window's.
+bool LinkPace::is_quick() const {
+  const auto trip = usual_trip();
+  return trip && *trip <= kShortTrip;
+}
+
+/// Median of the window's trips; nullopt where there are too few.
 std::optional<Duration> LinkPace::usual_trip() const {
   const std::size_t count = std::min(trip_count_, kTrips);
   if (count < kLeastTrips) return std::nullopt;

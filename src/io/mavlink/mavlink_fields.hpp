@@ -17,8 +17,7 @@ void visit_fields(Visitor& v, MavlinkConfig& mavlink) {
   v.field("position_rate_hz", mavlink.position_rate_hz, kRate, "Hz", "Rate at which positions are requested");
   v.field("fast_rate_hz", mavlink.fast_rate_hz, Range::closed(0, 50), "Hz",
           "Rate at which attitudes, positions and gimbal angles are requested where the link bears it: "
-          "frames wait "
-          "for the telemetry after them; 0: the rates above always");
+          "frames wait for the telemetry after them; 0: the rates above always");
   v.field("rangefinder_rate_hz", mavlink.rangefinder_rate_hz, Range::closed(0, 50), "Hz",
           "Rate at which DISTANCE_SENSOR is requested; 0: it is not, but used where it comes");
   v.field(

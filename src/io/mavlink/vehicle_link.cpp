@@ -280,7 +280,11 @@ LinkPace::Heard VehicleLink::heard(HostTime now) const {
 void VehicleLink::ask_anew(HostTime now) {
   const bool was_fast = pace_.is_fast();
   pace_.restart();
-  was_fast ? want_streams(now) : requests_.restart(now);
+  if (was_fast) {
+    want_streams(now);
+  } else {
+    requests_.restart(now);
+  }
   camera_.ask_anew(now);
   sender_.seek_clock();
 }

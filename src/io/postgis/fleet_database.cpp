@@ -15,6 +15,7 @@
 
 #include "fleet_rows.hpp"
 #include "fleet_tables.hpp"
+#include "geoloc/io/endpoint.hpp"
 #include "geoloc/io/fleet/summary_file.hpp"
 
 namespace geoloc::io {
@@ -58,8 +59,7 @@ std::uint64_t number_in(const Answer& answer, int row, int column) {
 }
 
 bool is_here(const std::string& host) {
-  return host.empty() || host.front() == '/' || host == "localhost" || host == "::1" ||
-         host.rfind("127.", 0) == 0;
+  return host.empty() || host.front() == '/' || is_loopback(host);
 }
 
 }  // namespace

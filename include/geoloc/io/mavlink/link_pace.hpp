@@ -36,15 +36,16 @@ class LinkPace {
  private:
   static constexpr std::size_t kTrips = 9;  // kept per window, the newest
 
-  bool judge(HostTime now, const Heard& heard, double lost_share);
-  bool try_fast(double lost_share);
-  bool give_up(HostTime now);
+  bool bears_it(const Heard& heard, double lost_share) const;
+  void try_fast(double lost_share);
+  void give_up(HostTime now);
+  bool is_quick() const;
   std::optional<Duration> usual_trip() const;
 
   bool is_fast_ = false;
   std::optional<HostTime> window_end_;
   Heard at_begin_;
-  int windows_ = 0;            ///< since is_fast() changed
+  int windows_ = 0;            ///< of the trial
   double usually_lost_ = 0.0;  ///< share of the frames, before the trial
   std::optional<HostTime> pause_until_;
   Duration pause_ = kFirstPause;
