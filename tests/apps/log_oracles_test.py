@@ -172,7 +172,7 @@ class LogOracles(AppTest):
 
     def assert_subtitles(self, file):
         number = r"\s*:\s*([-+]?[\d.]+)"
-        places, gimbal = {}, {}
+        places, gimbal, half_digits = {}, {}, []
         for block in re.split(r"\n\s*\n", file.read_text()):
             begin = re.search(r"(\d+):(\d+):(\d+)[,.](\d+) -->", block)
             if not begin:
@@ -185,6 +185,8 @@ class LogOracles(AppTest):
             else:
                 places[time_us] = tuple(float(re.search(key + number, block)[1]) for key in
                                         ("latitude", "longitude", "rel_alt", "abs_alt"))
+            coordinates = old.groups()[:2] if old else (re.search(key + number, block)[1] for key in ("latitude", "longitude"))
+            half_digits += [0.5 * 10.0 ** -len(coordinate.partition(".")[2]) for coordinate in coordinates]
             if "gb_pitch" in block:
                 gimbal[time_us] = tuple(float(re.search(key + number, block)[1]) for key in ("gb_roll", "gb_pitch", "gb_yaw"))
         begin_us = min(places)
@@ -192,7 +194,8 @@ class LogOracles(AppTest):
         self.assertGreater(len(messages[POSITION]), 0)
         for time, lat, lon, alt_mm, above_home_mm in messages[POSITION]:
             latitude_deg, longitude_deg, above_home_m, alt_m = places[time + begin_us]
-            self.assertEqual((lat, lon), (round(latitude_deg * 1e7), round(longitude_deg * 1e7)))
+            for told, written_deg in ((lat, latitude_deg), (lon, longitude_deg)):  # the import takes the rounding out
+                self.assertAlmostEqual(told, written_deg * 1e7, delta=min(half_digits) * 1e7 + 0.6)
             self.assertAlmostEqual(above_home_mm, above_home_m * 1e3, delta=0.6)
             if alt_m is not None:
                 self.assertAlmostEqual(alt_mm, alt_m * 1e3, delta=0.6)
