@@ -13,23 +13,14 @@ namespace geoloc::io {
 
 bool LiveDocument::wait(const Cursor& cursor, std::chrono::milliseconds timeout) const {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, timeout, [&] { return is_closed_ || revision_ > cursor.revision; });
-  return !is_closed_ && revision_ > cursor.revision;
+  const auto has_news = [&] { return cursor.has_more || revision_ > cursor.revision; };
+  changed_.wait_for(lock, timeout, [&] { return is_closed_ || has_news(); });
+  return !is_closed_ && has_news();
 }
 
 void LiveDocument::pause_until(std::chrono::steady_clock::time_point time) const {
   std::unique_lock lock(mutex_);
   closing_.wait_until(lock, time, [this] { return is_closed_; });
-}
-
-std::string LiveDocument::objects_since(std::uint64_t revision) const {
-  std::string json = "[";
-  for (const auto& [id, entry] : objects_) {
-    if (entry.revision <= revision) continue;
-    if (json.size() > 1) json += ',';
-    json += entry.json;
-  }
-  return json + "]";
 }
 
 std::string LiveDocument::path_since(const Cursor& cursor) const {
@@ -54,6 +45,15 @@ std::string LiveDocument::fixes_since(std::uint64_t first) const {
   return json + "]";
 }
 
+/// All ids that there are where a page has not looked for long.
+void LiveDocument::append_removals(std::uint64_t since, std::string& json) const {
+  if (const auto removed = objects_.removed_since(since)) {
+    if (*removed != "[]") page_json::append(json, "removed", *removed);
+  } else {
+    page_json::append(json, "ids", objects_.ids());
+  }
+}
+
 std::string LiveDocument::changes(Cursor& cursor) const {
   const std::lock_guard lock(mutex_);
   std::string json;
@@ -61,31 +61,20 @@ std::string LiveDocument::changes(Cursor& cursor) const {
   for (const auto& [name, part] : parts_) {
     if (part.revision > cursor.revision) page_json::append(json, name, part.json);
   }
-  page_json::append(json, "objects", objects_since(cursor.revision));
-  if (removed_revision_ > cursor.revision) {
-    std::string ids = "[";
-    for (const auto& [id, entry] : objects_) ids += (ids.size() > 1 ? "," : "") + std::to_string(id);
-    page_json::append(json, "ids", ids + "]");
-  }
+  const LiveObjects::Changes objects = objects_.changed_since(cursor.objects);
+  page_json::append(json, "objects", objects.objects);
+  if (!objects.are_all) page_json::append(json, "more", "true");
+  if (cursor.revision > 0) append_removals(cursor.revision, json);
   if (cursor.path_epoch != path_epoch_) page_json::append(json, "path_begins_anew", "true");
   page_json::append(json, "path", path_since(cursor));
   page_json::append(json, "fixes", fixes_since(cursor.fixes));
-  cursor = {revision_, path_.size(), fixes_end_, path_epoch_};
+  cursor = {revision_, path_.size(), fixes_end_, path_epoch_, objects.last, !objects.are_all};
   return json + "}";
 }
 
 std::optional<std::string> LiveDocument::object(std::uint64_t id) const {
   const std::lock_guard lock(mutex_);
-  const auto found = objects_.find(id);
-  if (found == objects_.end()) return std::nullopt;
-  const Entry& entry = found->second;
-  std::string history = "[";
-  for (const Moment& moment : entry.history) {
-    fmt::format_to(std::back_inserter(history), "{}[{},{},{:.4f}]", history.size() > 1 ? "," : "",
-                   page_json::milliseconds(moment.at), moment.hits,
-                   std::isfinite(moment.sigma_major_m) ? moment.sigma_major_m : 0.0);
-  }
-  return page_json::details(entry.report, entry.json, history + "]");
+  return objects_.details(id);
 }
 
 void LiveDocument::close() {

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "page_json.hpp"
+#include "thin_out.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -13,29 +14,10 @@ namespace {
 constexpr std::size_t kMostPathPoints = 4096;
 constexpr double kPathSpacing_m = 0.3;
 constexpr std::size_t kMostFixes = 3000;
-constexpr std::size_t kMostObjects = 5000;
-constexpr std::size_t kMostPictures = 2000;
-constexpr std::size_t kMostMoments = 128;
-constexpr double kNoteworthyChange = 0.05;  // of an object's sigma
-
-/// Drops every second entry, so that the rest covers the same time.
-template <typename T>
-void thin_out(std::vector<T>& entries) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < entries.size(); i += 2) entries[kept++] = entries[i];
-  entries.erase(entries.begin() + static_cast<std::ptrdiff_t>(kept), entries.end());
-}
-
-/// Compares everything that can change on its own.
-bool is_same(const ObjectReport& a, const ObjectReport& b) {
-  return a.position_in_enu == b.position_in_enu && a.covariance_in_enu == b.covariance_in_enu &&
-         a.height.above_home_m == b.height.above_home_m && a.hits == b.hits && a.confidence == b.confidence &&
-         a.class_id == b.class_id && a.note == b.note;
-}
 
 }  // namespace
 
-LiveDocument::LiveDocument(const LivePageTitle& title) {
+LiveDocument::LiveDocument(const LivePageTitle& title, std::size_t most_objects) : objects_(most_objects) {
   publish();
   set("run", page_json::title(title));
 }
@@ -54,7 +36,11 @@ void LiveDocument::publish() {
 void LiveDocument::add(const OutputFrame& frame) {
   const std::lock_guard lock(mutex_);
   publish();
-  add_objects(frame);
+  for (const ObjectReport& report : frame.objects) objects_.add(report, true, frame.captured_at, revision_);
+  for (const ObjectReport& report : frame.tentative)
+    objects_.add(report, false, frame.captured_at, revision_);
+  objects_.remove_others(revision_, false);
+  count_objects();
   run_.estimator = frame.estimator;
   set("estimator", page_json::estimator(frame.estimator));
   newest_at_ = frame.captured_at;
@@ -86,19 +72,18 @@ void LiveDocument::add(const RunRecord& run) {
   run_.ground_height_above_home_m = run.ground_height_above_home_m;
   run_.trajectory = run.trajectory;
   for (const ObjectReport& report : run.objects)
-    add_object(report, true, std::max(newest_at_, report.last_seen));
-  remove_objects([this](const Entry& entry) { return entry.is_confirmed && entry.seen_in != revision_; });
+    objects_.add(report, true, std::max(newest_at_, report.last_seen), revision_);
+  objects_.remove_others(revision_, true);
+  count_objects();
 }
 
 std::optional<NotedObject> LiveDocument::note(std::uint64_t id, const ObjectNote& note) {
   const std::lock_guard lock(mutex_);
-  const auto found = objects_.find(id);
-  if (found == objects_.end() || !found->second.is_confirmed) return std::nullopt;
+  const ObjectReport* const object = objects_.confirmed(id);
+  if (object == nullptr) return std::nullopt;
   publish();
-  Entry& entry = found->second;
-  entry.report.note = note;
-  write_json(id, entry);
-  return NotedObject{newest_at_, id, entry.report.position, note};
+  objects_.set_note(id, note);
+  return NotedObject{newest_at_, id, object->position, note};
 }
 
 std::uint64_t LiveDocument::revision() const {
@@ -109,40 +94,32 @@ std::uint64_t LiveDocument::revision() const {
 RunRecord LiveDocument::record() const {
   const std::lock_guard lock(mutex_);
   RunRecord run = run_;
-  for (const auto& [id, entry] : objects_) {
-    if (entry.is_confirmed) run.objects.push_back(entry.report);
-  }
+  run.objects = objects_.all_confirmed();
   return run;
 }
 
 RunFigures LiveDocument::figures() const {
   const std::lock_guard lock(mutex_);
-  const auto confirmed = std::count_if(objects_.begin(), objects_.end(),
-                                       [](const auto& one) { return one.second.is_confirmed; });
-  return {status_, run_.estimator, static_cast<std::size_t>(confirmed)};
+  return {status_, run_.estimator, objects_.counts().confirmed};
 }
 
 void LiveDocument::show_object(std::uint64_t id, std::string jpeg) {
   const std::lock_guard lock(mutex_);
-  if (pictures_.size() >= kMostPictures && pictures_.count(id) == 0) return;
+  if (!objects_.has_room_for_picture_of(id)) return;
   publish();
-  pictures_[id] = {std::make_shared<const std::string>(std::move(jpeg)), ++pictures_made_};
-  if (const auto found = objects_.find(id); found != objects_.end()) write_json(id, found->second);
+  objects_.set_picture(id, std::move(jpeg));
 }
 
 void LiveDocument::forget_picture(std::uint64_t id) {
   const std::lock_guard lock(mutex_);
-  if (pictures_.erase(id) == 0) return;
-  const auto found = objects_.find(id);
-  if (found == objects_.end()) return;
+  if (objects_.picture_of(id) == nullptr) return;
   publish();
-  write_json(id, found->second);
+  objects_.forget_picture(id);
 }
 
 std::shared_ptr<const std::string> LiveDocument::picture_of(std::uint64_t id) const {
   const std::lock_guard lock(mutex_);
-  const auto found = pictures_.find(id);
-  return found == pictures_.end() ? nullptr : found->second.jpeg;
+  return objects_.picture_of(id);
 }
 
 void LiveDocument::announce_picture(std::uint64_t number) {
@@ -179,56 +156,10 @@ void LiveDocument::end() {
   set("ended", "true");
 }
 
-void LiveDocument::add_objects(const OutputFrame& frame) {
-  for (const ObjectReport& report : frame.objects) add_object(report, true, frame.captured_at);
-  for (const ObjectReport& report : frame.tentative) add_object(report, false, frame.captured_at);
-  remove_objects([this](const Entry& entry) { return entry.seen_in != revision_; });
-}
-
-void LiveDocument::remove_objects(const std::function<bool(const Entry&)>& is_gone) {
-  for (auto entry = objects_.begin(); entry != objects_.end();) {
-    if (is_gone(entry->second)) {
-      entry = objects_.erase(entry);
-      removed_revision_ = revision_;
-    } else {
-      ++entry;
-    }
-  }
-}
-
-void LiveDocument::add_object(const ObjectReport& report, bool is_confirmed, HostTime at) {
-  if (!report.position_in_enu.allFinite()) return;
-  if (objects_.size() >= kMostObjects && objects_.find(report.id) == objects_.end()) return;
-  Entry& entry = objects_[report.id];
-  entry.seen_in = revision_;
-  const bool is_new = entry.history.empty();
-  if (!is_new && is_confirmed == entry.is_confirmed && is_same(report, entry.report)) return;
-  entry.report = report;
-  entry.is_confirmed = is_confirmed;
-  note_moment(entry, at);
-  write_json(report.id, entry);
-}
-
-void LiveDocument::write_json(std::uint64_t id, Entry& entry) const {
-  const auto picture = pictures_.find(id);
-  std::string json = page_json::object(entry.report, entry.is_confirmed,
-                                       picture == pictures_.end() ? 0 : picture->second.number);
-  if (json == entry.json) return;
-  entry.json = std::move(json);
-  entry.revision = revision_;
-}
-
-/// Records how well an object is known after it was seen again, or after other observations improved its
-/// estimate.
-void LiveDocument::note_moment(Entry& entry, HostTime at) {
-  const double sigma_m = entry.report.ellipse.sigma_major_m;
-  if (!entry.history.empty()) {
-    const Moment& last = entry.history.back();
-    const bool is_news = std::abs(sigma_m - last.sigma_major_m) > kNoteworthyChange * last.sigma_major_m;
-    if (entry.report.hits == last.hits && !is_news) return;
-  }
-  if (entry.history.size() >= kMostMoments) thin_out(entry.history);
-  entry.history.push_back({at, entry.report.hits, sigma_m});
+/// Objects beyond what a page can show.
+void LiveDocument::count_objects() {
+  const std::size_t not_shown = objects_.counts().not_shown;
+  if (not_shown > 0 || parts_.count("not_shown") > 0) set("not_shown", std::to_string(not_shown));
 }
 
 void LiveDocument::add_path(const Eigen::Vector2d& position_in_enu) {

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "page_frames.hpp"
 
@@ -29,6 +31,7 @@ struct Mirror {
       objects.clear();
       path = fixes = json::array();
     }
+    for (const json& id : change.value("removed", json::array())) objects.erase(id.get<std::uint64_t>());
     for (const json& object : change["objects"]) objects[object["id"]] = object;
     if (change.contains("ids")) {
       std::map<std::uint64_t, json> living;
@@ -107,6 +110,52 @@ TEST(LiveDocument, AnObjectIsShownAsConfirmedOnlyWhileItIs) {
       EXPECT_EQ(page.objects[second.id]["confirmed"], belief == Belief::kConfirmed) << number;
     }
   }
+}
+
+/// Pages forget by ids what a few frames removed, and by what is left where they have not looked for long.
+TEST(LiveDocument, ManyObjectsThatComeAndGoAreToldRightlyToPagesThatLookNowAndThen) {
+  LiveDocument document({"", true});
+  Mirror eager, lazy;
+  std::mt19937 random(1);
+  for (int number = 1; number <= 300; ++number) {
+    OutputFrame frame = page_frame(number, 400);
+    const auto is_gone = [&](const ObjectReport&) { return random() % 8 == 0; };
+    frame.objects.erase(std::remove_if(frame.objects.begin(), frame.objects.end(), is_gone),
+                        frame.objects.end());
+    document.add(frame);
+    eager.take(document);
+    if (number % 100 == 0) lazy.take(document);
+    ASSERT_EQ(eager.objects.size(), frame.objects.size()) << number;
+  }
+  Mirror fresh;
+  fresh.take(document);
+  EXPECT_EQ(eager.objects, fresh.objects);
+  EXPECT_EQ(lazy.objects, fresh.objects);
+}
+
+TEST(LiveDocument, ObjectsThatHaveNoRoomAreCounted) {
+  LiveDocument document({"", true}, 5);
+  document.add(page_frame(1, 12));
+  Mirror page;
+  EXPECT_EQ(page.take(document)["not_shown"], 7);
+  EXPECT_EQ(page.objects.size(), 5U);
+  document.add(page_frame(2, 5));
+  EXPECT_EQ(page.take(document)["not_shown"], 0);
+}
+
+TEST(LiveDocument, ManyObjectsAreSentAFewThousandAtATime) {
+  constexpr std::size_t kObjects = 10'000;
+  LiveDocument document({"", true});
+  document.add(page_frame(1, kObjects));
+  Mirror page;
+  int messages = 0;
+  while (document.wait(page.cursor, std::chrono::milliseconds(0))) {
+    const json change = page.take(document);
+    EXPECT_LE(change["objects"].size(), 4000U);
+    if (++messages == 1) document.add(page_frame(2, kObjects));  // of which none has changed
+  }
+  EXPECT_EQ(messages, 3);
+  EXPECT_EQ(page.objects.size(), kObjects);
 }
 
 TEST(LiveDocument, StaysBoundedOnALongFlight) {

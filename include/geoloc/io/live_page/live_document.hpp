@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
-#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -14,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "geoloc/io/live_page/live_objects.hpp"
 #include "geoloc/io/output/live_status.hpp"
 #include "geoloc/io/output/output_frame.hpp"
 #include "geoloc/io/output/run_record.hpp"
@@ -46,9 +46,11 @@ class LiveDocument {
     std::uint64_t path = 0;   ///< points of the trajectory
     std::uint64_t fixes = 0;  ///< raw fixes
     std::uint64_t path_epoch = 0;
+    std::uint64_t objects = 0;  ///< changes of objects
+    bool has_more = false;      ///< there are more objects than were sent at once
   };
 
-  explicit LiveDocument(const LivePageTitle& title);
+  explicit LiveDocument(const LivePageTitle& title, std::size_t most_objects = LiveObjects::kMost);
 
   void add(const OutputFrame& frame);
   void add(const LiveStatus& status);
@@ -95,46 +97,22 @@ class LiveDocument {
   bool is_closed() const;
 
  private:
-  /// How well an object was known at one time.
-  struct Moment {
-    HostTime at;
-    int hits;
-    double sigma_major_m;
-  };
   /// A part that is sent as a whole, and only if it has changed.
   struct Part {
     std::string json;
     std::uint64_t revision = 0;  // of the last change
-  };
-  struct Entry {
-    ObjectReport report;
-    bool is_confirmed = false;
-    std::string json;
-    std::uint64_t revision = 0;  // of the last change
-    std::uint64_t seen_in = 0;   // the update it was last part of
-    std::vector<Moment> history;
-  };
-  struct Picture {
-    std::shared_ptr<const std::string> jpeg;
-    std::uint64_t number = 0;
   };
   struct Fix {
     Eigen::Vector2d position_in_enu;
     double confidence;
     HostTime at;
   };
-  using Objects = std::map<std::uint64_t, Entry>;
-
-  void write_json(std::uint64_t id, Entry& entry) const;
-  void remove_objects(const std::function<bool(const Entry&)>& is_gone);
-  void add_objects(const OutputFrame& frame);
-  void add_object(const ObjectReport& report, bool is_confirmed, HostTime at);
-  static void note_moment(Entry& entry, HostTime at);
+  void count_objects();
   void add_path(const Eigen::Vector2d& position_in_enu);
   void add_fixes(const OutputFrame& frame);
   void publish();
   void set(const std::string& name, std::string json);
-  std::string objects_since(std::uint64_t revision) const;
+  void append_removals(std::uint64_t since, std::string& json) const;
   std::string path_since(const Cursor& cursor) const;
   std::string fixes_since(std::uint64_t first) const;
 
@@ -143,11 +121,8 @@ class LiveDocument {
   mutable std::condition_variable closing_;
   bool is_closed_ = false;
   std::uint64_t revision_ = 0;
-  std::uint64_t removed_revision_ = 0;  // of the last removal
-  std::map<std::string, Part> parts_;   // by their names in the JSON
-  Objects objects_;
-  std::map<std::uint64_t, Picture> pictures_;  // by object
-  std::uint64_t pictures_made_ = 0;
+  std::map<std::string, Part> parts_;  // by their names in the JSON
+  LiveObjects objects_;
   RunRecord run_;  // without objects
   std::optional<LiveStatus> status_;
   HostTime newest_at_{};

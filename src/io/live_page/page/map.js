@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The map: a canvas with a metric grid that is moved and zoomed by mouse, touch and keys.
+import { Cells, crowdsOf, drawCrowds } from "./crowds.js";
 import { drawFlights } from "./fleet.js";
 import * as layers from "./layers.js";
 import * as marks from "./marks.js";
@@ -7,12 +8,20 @@ import { Viewport, toDegrees, typical } from "./projection.js";
 
 const REACH_PX = 22; // of a tap, which may be with gloves
 const KEY_STEP_PX = 60;
+const CROWD_ZOOM = 3; // by a tap on a crowd
 const TOOLS_PX = 68; // the buttons at the right edge
 const COLOURS = ["map", "grid", "grid-strong", "ink", "soft", "object", "tentative", "raw", "trajectory", "footprint",
   "target", "vehicle"];
 // A corner of the image near the horizon lies far away, and would make all else small.
 const FARTHEST_CORNER = 8; // times the vehicle's height
 const FEW_OBJECTS = 3; // one of so few cannot be told to be false by the others
+const MOST_TO_AIM_AT = 2000;
+
+/** Of more objects than that, so many: enough to tell where they are. */
+function sampleOf(objects) {
+  const stride = Math.ceil(objects.length / MOST_TO_AIM_AT);
+  return stride < 2 ? objects : objects.filter((_, i) => i % stride === 0);
+}
 
 export class GroundMap extends EventTarget {
   /** `visible(key)`: whether a layer is drawn. `background(pen)`: draws what is below all layers. */
@@ -28,6 +37,7 @@ export class GroundMap extends EventTarget {
     this.own = null; // where the reader stands [m]
     this.onTap = null; // takes the next tap in place of the objects
     this.factor = 1;
+    this.crowds = [];
     this.pointers = new Map();
     this.readColours();
     new ResizeObserver(() => this.resize()).observe(canvas);
@@ -80,7 +90,7 @@ export class GroundMap extends EventTarget {
     if (this.mode !== "fit") return;
     const seen = this.cornersInView();
     const flown = typical([...model.path, ...(model.view ? [model.view.vehicle] : [])]);
-    const objects = model.confirmed().filter((object) => object.verdict !== "dismissed").map((object) => object.at);
+    const objects = sampleOf(model.confirmed()).filter((object) => object.verdict !== "dismissed").map((object) => object.at);
     const found = objects.length > FEW_OBJECTS ? typical(objects) : typical([...objects, ...seen, ...flown]);
     viewport.fit([...flown, ...seen, ...found, ...typical(model.targets)], TOOLS_PX);
   }
@@ -107,7 +117,6 @@ export class GroundMap extends EventTarget {
     if (this.visible("footprint") && model.view?.footprint) layers.drawFootprint(pen, model.view.footprint);
     if (this.visible("path")) layers.drawPath(pen, model.path, model.view?.vehicle);
     if (this.visible("targets")) layers.drawTargets(pen, model.targets);
-    if (this.visible("flights")) drawFlights(pen, model.flights);
     this.drawObjects(pen, now);
     if (this.own) marks.drawOwnPlace(pen, this.own);
     if (model.view) marks.drawVehicle(pen, model.view);
@@ -115,23 +124,36 @@ export class GroundMap extends EventTarget {
   }
 
   drawObjects(pen, now) {
+    const isApart = (object) => object.id === this.selected || this.model.isNew(object.id);
     const shown = this.shownObjects();
-    const factor = layers.exaggeration(shown.filter((object) => object.confirmed), this.viewport.scale);
+    if (!this.cells?.isOf(shown, this.viewport.scale)) this.cells = new Cells(shown, this.viewport.scale);
+    const { single, crowds } = crowdsOf(this.cells, this.viewport, isApart);
+    const factor = layers.exaggeration(single.filter((object) => object.confirmed), this.viewport.scale);
     if (factor !== this.factor) {
       this.factor = factor;
       this.dispatchEvent(new Event("exaggeration"));
     }
-    if (this.visible("ellipses")) for (const object of shown.filter((one) => one.verdict !== "dismissed")) layers.drawEllipse(pen, object, factor);
+    this.crowds = crowds;
+    if (this.visible("flights") && crowds.length === 0) drawFlights(pen, this.model.flights);
+    drawCrowds(pen, crowds);
+    if (this.visible("ellipses")) for (const object of single.filter((one) => one.verdict !== "dismissed")) layers.drawEllipse(pen, object, factor);
     if (this.visible("fixes")) layers.drawFixes(pen, this.model.fixes, now);
-    for (const object of shown) {
+    for (const object of single) {
       if (this.model.isNew(object.id)) marks.drawNew(pen, object);
       layers.drawObject(pen, object, object.id === this.selected);
     }
-    layers.drawLabels(pen, shown.filter((object) => object.confirmed || object.id === this.selected));
+    layers.drawLabels(pen, single.filter((object) => object.confirmed || object.id === this.selected));
   }
 
+  /** The same list until the objects, the filter or the layers change. */
   shownObjects() {
-    return this.model.shown().filter((object) => this.visible(object.confirmed ? "objects" : "tentative"));
+    const ofModel = this.model.shown();
+    const layers = ["objects", "tentative"].map((key) => this.visible(key)).join();
+    if (this.shown?.ofModel !== ofModel || this.shown.layers !== layers) {
+      const list = ofModel.filter((object) => this.visible(object.confirmed ? "objects" : "tentative"));
+      this.shown = { ofModel, layers, list };
+    }
+    return this.shown.list;
   }
 
   /** A small picture of a layer's mark, for the legend. */
@@ -219,7 +241,9 @@ export class GroundMap extends EventTarget {
     this.pointers.delete(event.pointerId);
     if (!isClick) return;
     const pixel = [event.offsetX, event.offsetY];
+    const crowd = this.crowds.find(({ at, radius_px }) => Math.hypot(at[0] - pixel[0], at[1] - pixel[1]) <= Math.max(REACH_PX, radius_px));
     if (this.onTap) this.onTap(pixel);
+    else if (crowd) this.zoom(CROWD_ZOOM, crowd.at);
     else this.select(this.objectAt(pixel));
   }
 

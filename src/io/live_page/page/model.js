@@ -27,7 +27,10 @@ export class Model extends EventTarget {
     this.flights = [];
     this.picture = 0;
     this.playback = null;
+    this.isCatchingUp = false; // what there was before this page comes a part at a time
+    this.notShown = 0; // objects for which the server has no room
     this.objects = new Map();
+    this.touch();
     this.confirmedAt = new Map(); // by id, in the page's time; objects that were there before it have none
     this.path = [];
     this.fixes = [];
@@ -42,16 +45,21 @@ export class Model extends EventTarget {
     for (const key of ["anchor", "ended", "status", "view", "estimator", "targets", "flights", "picture", "playback"]) {
       if (key in change) this[key] = change[key];
     }
-    const confirmed = this.takeObjects(change.objects, change.run || change.playback?.seeking ? -Infinity : performance.now());
+    if ("not_shown" in change) this.notShown = change.not_shown;
+    for (const id of change.removed ?? []) this.objects.delete(id);
+    const isOld = change.run || this.isCatchingUp || change.playback?.seeking;
+    const confirmed = this.takeObjects(change.objects, isOld ? -Infinity : performance.now());
+    this.isCatchingUp = Boolean(change.run || this.isCatchingUp) && change.more === true;
     if (change.ids) {
       const living = new Set(change.ids);
       for (const id of this.objects.keys()) if (!living.has(id)) this.objects.delete(id);
     }
+    if (change.objects.length > 0 || change.removed || change.ids) this.touch();
     if (change.path_begins_anew) this.path = [];
     this.path.push(...change.path);
     this.fixes.push(...change.fixes);
     if (this.fixes.length > MOST_FIXES) this.fixes.splice(0, this.fixes.length - MOST_FIXES);
-    return change.run || this.playback?.seeking ? [] : confirmed;
+    return isOld || this.playback?.seeking ? [] : confirmed;
   }
 
   takeObjects(objects, now) {
@@ -65,15 +73,35 @@ export class Model extends EventTarget {
     return performance.now() - (this.confirmedAt.get(id) ?? -Infinity) < NEW_MS;
   }
 
-  /** The objects that the filter lets through. */
-  shown() {
-    const { filter } = this;
-    return [...this.objects.values()].filter((object) => (filter.class === "" || object.name === filter.class) &&
-      (filter.sigma_m === Infinity || (object.major_m ?? Infinity) <= filter.sigma_m));
+  /** Lists are formed anew when they are asked for after a change. */
+  touch() {
+    this.lists = {};
   }
 
+  setFilter(filter) {
+    this.filter = filter;
+    this.touch();
+    this.dispatchEvent(new Event("change"));
+  }
+
+  /** The objects that the filter lets through. Not to be changed. */
+  shown() {
+    const { filter } = this;
+    this.lists.shown ??= [...this.objects.values()].filter((object) => (filter.class === "" || object.name === filter.class) &&
+      (filter.sigma_m === Infinity || (object.major_m ?? Infinity) <= filter.sigma_m));
+    return this.lists.shown;
+  }
+
+  /** Not to be changed. */
   confirmed() {
-    return [...this.objects.values()].filter((object) => object.confirmed);
+    this.lists.confirmed ??= [...this.objects.values()].filter((object) => object.confirmed);
+    return this.lists.confirmed;
+  }
+
+  /** Names of the classes that there are, in order. */
+  classes() {
+    this.lists.classes ??= [...new Set([...this.objects.values()].map((object) => object.name))].sort();
+    return this.lists.classes;
   }
 }
 

@@ -15,8 +15,7 @@ export class ObjectList {
     this.empty = element("li", { className: "empty", textContent: "None yet." });
     for (const filter of Object.values(filters)) {
       filter.addEventListener("change", () => {
-        model.filter = { class: filters.class.value, sigma_m: Number(filters.sigma.value) || Infinity };
-        model.dispatchEvent(new Event("change"));
+        model.setFilter({ class: filters.class.value, sigma_m: Number(filters.sigma.value) || Infinity });
       });
     }
     list.addEventListener("scroll", () => this.showMore());
@@ -30,13 +29,14 @@ export class ObjectList {
     const isDismissed = (object) => object.verdict === "dismissed";
     // Those that were confirmed while this page looked come first: the difference is NaN where neither was.
     const confirmedAt = (object) => model.confirmedAt.get(object.id) ?? -Infinity;
-    const all = model.shown().sort((a, b) => isDismissed(a) - isDismissed(b) || b.confirmed - a.confirmed ||
+    const all = model.shown();
+    const first = firstOf(all, MOST_ROWS, (a, b) => isDismissed(a) - isDismissed(b) || b.confirmed - a.confirmed ||
       confirmedAt(b) - confirmedAt(a) || b.first_seen - a.first_seen || b.id - a.id);
-    const total = model.objects.size;
+    const total = model.objects.size + model.notShown;
     const confirmed = all.filter((object) => object.confirmed).length;
     this.count.textContent = `${confirmed} confirmed, ${all.length - confirmed} tentative` +
       (all.length < total ? ` of ${total}` : "");
-    const wanted = all.slice(0, MOST_ROWS).map((object) => this.row(object, object.id === selected, operator));
+    const wanted = first.map((object) => this.row(object, object.id === selected, operator));
     if (wanted.length === 0) {
       this.empty.textContent = total > 0 ? "None of these." : "None yet.";
       wanted.push(this.empty);
@@ -53,7 +53,7 @@ export class ObjectList {
     wanted.forEach((row, i) => {
       if (list.children[i] !== row) list.insertBefore(row, list.children[i] ?? null);
     });
-    for (const id of this.rows.keys()) if (!this.model.objects.has(id)) this.rows.delete(id);
+    for (const [id, row] of this.rows) if (!keep.has(row)) this.rows.delete(id);
   }
 
   row(object, isSelected, operator) {
@@ -94,7 +94,7 @@ export class ObjectList {
   /** Offers the classes that there are. */
   showClasses() {
     const select = this.filters.class;
-    const names = [...new Set([...this.model.objects.values()].map((object) => object.name))].sort();
+    const names = this.model.classes();
     if (names.join("\n") === this.classes) return;
     this.classes = names.join("\n");
     const chosen = select.value;
@@ -111,6 +111,20 @@ export class ObjectList {
     this.more.hidden = below === 0;
     if (below > 0) this.more.textContent = `↓ ${below} more`;
   }
+}
+
+/** The first of them in that order, without all others being brought in order. */
+function firstOf(items, count, compare) {
+  let first = [];
+  let last = null;
+  for (const item of items) {
+    if (last !== null && compare(item, last) >= 0) continue;
+    first.push(item);
+    if (first.length < 2 * count) continue;
+    first = first.sort(compare).slice(0, count);
+    last = first.at(-1);
+  }
+  return first.sort(compare).slice(0, count);
 }
 
 /** Loads an object's best picture, if there is one that is not shown yet. */
