@@ -50,6 +50,7 @@ std::size_t ArrowheadSolver::take_room(ArrowheadSolver* self, const DriftConfig&
   const Eigen::Index size = room_for(drift);
   return PositionPrior::take_room(nullptr, most_nodes(drift)) + EnvelopeCholesky::take_room(nullptr, size) +
          room::resize(self, &ArrowheadSolver::right_hand_side_, size) +
+         room::resize(self, &ArrowheadSolver::covariances_of_focal_, size) +
          room::resize(self, &ArrowheadSolver::sensitivities_, kPointSize, size) +
          room::resize(self, &ArrowheadSolver::B_, kPointSize, size) +
          room::resize(self, &ArrowheadSolver::gain_, kPointSize, size) +
@@ -108,6 +109,7 @@ void ArrowheadSolver::add_prior_of_position(const DriftTimeline& drift, const He
 }
 
 void ArrowheadSolver::add_prior_of_sway(const SwayTimeline& sway, const HeadLayout& layout) {
+  if (is_focal_unknown() && sway.size() > 0) add_frozen_sway(sway, layout);
   for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
     const Spell& spell = sway.spell(number);
     const SwayVector information = sway.information(number);
@@ -120,6 +122,19 @@ void ArrowheadSolver::add_prior_of_sway(const SwayTimeline& sway, const HeadLayo
         spell.transition * spell.transition * information;
     information_.block<kSwaySize, kSwaySize>(here, before).diagonal() -= spell.transition * information;
   }
+}
+
+/// What the frozen spells, and the oldest of the others by the one before, say of the focal length.
+void ArrowheadSolver::add_frozen_sway(const SwayTimeline& sway, const HeadLayout& layout) {
+  constexpr int kFocal = CalibrationIndex::kFocal;
+  const Eigen::Index last = layout.column_of_calibration(), here = layout.column_of_spell(sway.begin());
+  const Spell& oldest = sway.spell(sway.begin());
+  const SwayVector coupling = sway.information(sway.begin()).cwiseProduct(oldest.prior_per_focal);
+  const FocalInformation& known = sway.of_focal();
+  information_.block<kCalibration, kSwaySize>(last, here).row(kFocal) -= coupling.transpose();
+  information_.block<kCalibration, kCalibration>(last, last)(kFocal, kFocal) +=
+      known.information + coupling.dot(oldest.prior_per_focal);
+  right_hand_side_[last + kFocal] += known.vector - coupling.dot(oldest.prior_mean);
 }
 
 /// An observation of the constant height, and of the up components of the two nodes around it.
@@ -209,6 +224,12 @@ void ArrowheadSolver::eliminate(const PointMatrix& A, const Point& b) {
   }
 }
 
+void ArrowheadSolver::find_covariances_of_focal(const HeadLayout& layout) {
+  covariances_of_focal_.head(layout.size()).setZero();
+  covariances_of_focal_[layout.column_of_calibration() + CalibrationIndex::kFocal] = 1.0;
+  information_.solve(covariances_of_focal_.head(layout.size()));
+}
+
 std::optional<ArrowheadSolver::Solution> ArrowheadSolver::solve(const std::vector<const Landmark*>& landmarks,
                                                                 const FlightPrior& prior,
                                                                 const DriftTimeline& drift,
@@ -224,6 +245,7 @@ std::optional<ArrowheadSolver::Solution> ArrowheadSolver::solve(const std::vecto
   for (const Landmark* landmark : landmarks) add_landmark(*landmark, layout);
   if (!information_.factorize()) return std::nullopt;
   information_.solve(right_hand_side_.head(layout.size()));
+  if (is_focal_unknown()) find_covariances_of_focal(layout);
   return Solution(*this, layout);
 }
 

@@ -67,6 +67,9 @@ class ArrowheadSolver {
     NodeMatrix newest_node_covariance() const;
     /// Mean of a spell of the sway, by its running number.
     SwayVector spell(std::uint32_t number) const;
+    /// What it changes by with the focal length's logarithm e: cov(spell, e) / var(e). Zero where the focal
+    /// length is known.
+    SwayVector spell_per_focal(std::uint32_t number) const;
 
     /// Covariance of an object's absolute position [m^2]: its own noise and that of the head. Its height is
     /// that above the reported home, so that the calibration's height is part of it.
@@ -115,10 +118,13 @@ class ArrowheadSolver {
   Calibration prior(const FlightPrior& prior) const;
 
  private:
+  bool is_focal_unknown() const { return prior_sigma_[CalibrationIndex::kFocal] > 0.0; }
   void add_prior(const Calibration& prior, const DriftTimeline& drift, const HeadLayout& layout);
   void add_prior_of_position(const DriftTimeline& drift, const HeadLayout& layout);
   void add_prior_of_sway(const SwayTimeline& sway, const HeadLayout& layout);
+  void add_frozen_sway(const SwayTimeline& sway, const HeadLayout& layout);
   void add_heights(const HeightLog& heights, const HeadLayout& layout);
+  void find_covariances_of_focal(const HeadLayout& layout);
   void add_landmark(const Landmark& landmark, const HeadLayout& layout);
   void add_own(const Landmark& landmark, const HeadLayout& layout);
   void spread(const Landmark& landmark, const HeadLayout& layout);
@@ -137,6 +143,7 @@ class ArrowheadSolver {
   PositionPrior position_prior_;          // scratch
   EnvelopeCholesky information_;          // S, and its factor after solve()
   Eigen::VectorXd right_hand_side_;       // h, and the head after solve()
+  Eigen::VectorXd covariances_of_focal_;  // with the head, after solve(), where it is an unknown
   EnvelopeCholesky::Rows sensitivities_;  // scratch: dx/d(head)
   // Scratch of add_landmark(): an object's B and A^-1 B in the head's columns, in those that it has only.
   EnvelopeCholesky::Rows B_;

@@ -36,6 +36,13 @@ SwayVector ArrowheadSolver::Solution::spell(std::uint32_t number) const {
   return solver_->right_hand_side_.segment<kSwaySize>(layout_.column_of_spell(number));
 }
 
+SwayVector ArrowheadSolver::Solution::spell_per_focal(std::uint32_t number) const {
+  if (!solver_->is_focal_unknown()) return SwayVector::Zero();
+  const Eigen::VectorXd& covariances = solver_->covariances_of_focal_;
+  return covariances.segment<kSwaySize>(layout_.column_of_spell(number)) /
+         covariances[layout_.column_of_calibration() + CalibrationIndex::kFocal];
+}
+
 NodeMatrix ArrowheadSolver::Solution::newest_node_covariance() const {
   return newest_covariance_.topLeftCorner<kNodeSize, kNodeSize>();
 }

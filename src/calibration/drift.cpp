@@ -46,6 +46,18 @@ NodeSpan DriftTimeline::cover_after_step(VehicleTime time, double sigma_position
   return newest_span(time);
 }
 
+/// With u the nodes' distance in units of the time constant and w the share of it that has passed, the mean
+/// over w of the variance of r(w) - (1 - w) r(0) - w r(1), by the covariance exp(-u |w - w'|).
+double DriftTimeline::ripple_between_nodes_m2() const {
+  if (size() < 2) return 0.0;
+  const DriftNode& newest = node(end_ - 1);
+  const double kept = newest.ripple_transition;
+  if (!(kept > 0.0 && kept < 1.0)) return 0.0;
+  const double u = -std::log(kept);
+  const double share = (5.0 + kept) / 3.0 - 4.0 * (u - 1.0 + kept) / (u * u);
+  return share * ripple_variance(end_ - 1) / (1.0 - kept * kept);
+}
+
 NodeSpan DriftTimeline::newest_span(VehicleTime time) {
   const std::uint32_t first = end_ - 2;
   const Duration length = node(first + 1).time - node(first).time;

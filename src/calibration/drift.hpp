@@ -98,6 +98,10 @@ class DriftTimeline {
     return position_scale_ * position_scale_ * node(number).ripple_innovation;
   }
 
+  /// Variance per axis, in the mean over the time between the two newest nodes, of what the position ripples
+  /// by beside the straight line between them [m^2].
+  double ripple_between_nodes_m2() const;
+
   /// How strongly the position wanders and ripples against what the receiver's accuracy let expect.
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }

@@ -28,21 +28,20 @@ Landmark::NodeTerms& Landmark::terms_of(std::uint32_t node, const DriftTimeline&
 Landmark::SpellTerms& Landmark::terms_of_spell(std::uint32_t spell, std::uint32_t node,
                                                const DriftTimeline& drift) {
   if (SpellTerms* const found = spells_.find(spell)) return *found;
-  if (spells_.is_full()) drop_oldest_spell(drift.sway().spell(spells_.begin()->number).mean);
+  if (spells_.is_full()) drop_oldest_spell(drift.sway().spell(spells_.begin()->number));
   SpellTerms& terms = spells_.insert(spell);
   terms.node = node;
   return terms;
 }
 
 void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& drift) {
+  const bool has_spell = observation.span.spell != kNoSpell;
+  if (has_spell && drift.sway().is_frozen(observation.span.spell))
+    return add(observation.given(drift.sway().spell(observation.span.spell)), drift);
   const Eigen::Matrix2d& W = observation.information;
   const Eigen::Vector2d& slope = observation.slope;
   const Eigen::Matrix<double, 2, CalibrationIndex::kSize>& Jc = observation.calibration_jacobian;
-  const bool has_spell = observation.span.spell != kNoSpell;
-  const bool is_frozen = has_spell && drift.sway().is_frozen(observation.span.spell);
-  Eigen::Vector2d value = observation.value;
-  if (is_frozen) value += observation.sway_jacobian() * drift.sway().spell(observation.span.spell).mean;
-  const Eigen::Vector2d Wy = W * value;
+  const Eigen::Vector2d Wy = W * observation.value;
   const Eigen::Matrix<double, 2, CalibrationIndex::kSize> WJc = W * Jc;
   // lazyProduct: Eigen takes matrices of this size for large ones, and packs them first.
   const CalibrationMatrix JcWJc = Jc.transpose().lazyProduct(WJc);
@@ -72,7 +71,7 @@ void Landmark::add(const LandmarkObservation& observation, const DriftTimeline& 
   // The second node first: making room for it must not drop the terms that the first reference points to.
   add_to(observation.span.first + 1, second);
   add_to(observation.span.first, first).C_next += first * second * JdWJd;
-  if (!has_spell || is_frozen) return;
+  if (!has_spell) return;
 
   SpellTerms& terms = terms_of_spell(observation.span.spell, observation.span.first, drift);
   // Js = [I, the first two columns of Jc].
@@ -186,16 +185,28 @@ void Landmark::thin(const ThinnedNode& node, const DriftTimeline& drift) {
 }
 
 void Landmark::freeze_spell(std::uint32_t spell, const DriftTimeline& drift) {
-  if (!spells_.is_empty() && spells_.begin()->number == spell)
-    drop_oldest_spell(drift.sway().spell(spell).mean);
+  if (!spells_.is_empty() && spells_.begin()->number == spell) drop_oldest_spell(drift.sway().spell(spell));
 }
 
-void Landmark::drop_oldest_spell(const SwayVector& value) {
+/// With f = k + l e for the spell and the focal length's logarithm.
+void Landmark::drop_oldest_spell(const Spell& spell) {
+  constexpr int kFocal = CalibrationIndex::kFocal;
   const SpellTerms& gone = *spells_.begin();
-  b_ += gone.B * value;
-  g_ -= gone.C_calibration * value;
+  const SwayVector k = spell.constant();
+  const SwayVector& l = spell.per_focal;
+  const CalibrationVector with_calibration = gone.C_calibration * l;
+  b_ += gone.B * k;
+  depend_on_focal(gone.B * l);
+  g_ -= gone.C_calibration * k;
+  g_[kFocal] += l.dot(gone.g - gone.C_own * k);
+  C_.col(kFocal) += with_calibration;
+  C_.row(kFocal) += with_calibration.transpose();
+  C_(kFocal, kFocal) += l.dot(gone.C_own * l);
   for (std::uint32_t i = 0; i < 2; ++i) {
-    if (NodeTerms* const node = nodes_.find(gone.node + i)) node->g -= gone.C_node[i] * value;
+    NodeTerms* const node = nodes_.find(gone.node + i);
+    if (node == nullptr) continue;
+    node->g -= gone.C_node[i] * k;
+    node->C_calibration.row(kFocal) += (gone.C_node[i] * l).transpose();
   }
   spells_.erase(spells_.begin());
 }

@@ -49,10 +49,20 @@ struct LandmarkObservation {
     return jacobian;
   }
 
+  /// The same look where the sway is known, or depends on nothing but the calibration.
+  LandmarkObservation given(const Spell& sway) const {
+    LandmarkObservation observation = *this;
+    observation.value += sway_jacobian() * sway.constant();
+    observation.calibration_jacobian.col(CalibrationIndex::kFocal) += sway_jacobian() * sway.per_focal;
+    observation.span.spell = kNoSpell;
+    return observation;
+  }
+
   /// What H x is by this look alone.
   Eigen::Vector2d seen(const CalibrationVector& calibration, const DriftTimeline& drift) const {
     Eigen::Vector2d seen = value + calibration_jacobian * calibration + node_jacobian * drift.at(span);
-    if (span.spell != kNoSpell) seen += sway_jacobian() * drift.sway().spell(span.spell).mean;
+    if (span.spell != kNoSpell)
+      seen += sway_jacobian() * drift.sway().spell(span.spell).at(calibration[CalibrationIndex::kFocal]);
     return seen;
   }
 
@@ -117,6 +127,9 @@ class Landmark {
   void restore_spell(std::uint32_t number, std::uint32_t node, const SpellRows& B,
                      const DriftTimeline& drift);
 
+  /// A x moves by so much with the focal length's logarithm, besides.
+  void depend_on_focal(const Point& per_focal) { B_.col(CalibrationIndex::kFocal) += per_focal; }
+
   /// Nothing is known. As Landmark{}, without writing where nothing will be read.
   void clear();
 
@@ -133,7 +146,7 @@ class Landmark {
   /// higher by one from now on.
   void thin(const ThinnedNode& node, const DriftTimeline& drift);
 
-  /// Takes the spell's estimate as true from now on.
+  /// Takes the spell's estimate as true from now on, as far as it does not depend on the focal length.
   void freeze_spell(std::uint32_t spell, const DriftTimeline& drift);
 
   /// Takes the latency of all looks so far as known: those to come are of another.
@@ -155,7 +168,7 @@ class Landmark {
   NodeTerms& terms_of(std::uint32_t node, const DriftTimeline& drift);
   void drop_oldest(const NodeVector& value);
   SpellTerms& terms_of_spell(std::uint32_t spell, std::uint32_t node, const DriftTimeline& drift);
-  void drop_oldest_spell(const SwayVector& value);
+  void drop_oldest_spell(const Spell& spell);
 
   PointMatrix A_ = PointMatrix::Zero();
   Point b_ = Point::Zero();

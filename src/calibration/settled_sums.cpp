@@ -198,22 +198,29 @@ void SettledSums::thin(const ThinnedNode& node) {
   }
 }
 
-/// Nothing is there to do where none of that number is settled.
-void SettledSums::freeze_oldest(Places& of, std::uint32_t number,
-                                const Eigen::Matrix<double, kBlock, 1>& value) {
-  if (!of.has(number)) return;
-  substitute(of.of(number), {-1, -1}, {0.0, 0.0}, value);
-  of.places.erase(of.places.begin());
-  ++of.begin;
+/// h(gone) = constant + per_focal e.
+void SettledSums::substitute_by_focal(int gone, const Spell& spell) {
+  constexpr int kFocal = CalibrationIndex::kFocal;
+  const Eigen::Index from = offset(gone);
+  vector_ -= matrix_.middleCols<kBlock>(from) * spell.constant();
+  vector_[kFocal] += spell.per_focal.dot(vector_.segment<kBlock>(from));
+  matrix_.row(kFocal) += spell.per_focal.transpose() * matrix_.middleRows<kBlock>(from);
+  matrix_.col(kFocal) += matrix_.middleCols<kBlock>(from) * spell.per_focal;
+  release(gone);
 }
 
+/// Nothing is there to do where the oldest is not settled.
 void SettledSums::freeze_oldest_node(const DriftTimeline& drift) {
-  freeze_oldest(nodes_, drift.begin(), drift.node(drift.begin()).mean);
+  if (!nodes_.has(drift.begin())) return;
+  substitute(nodes_.of(drift.begin()), {-1, -1}, {0.0, 0.0}, drift.node(drift.begin()).mean);
+  nodes_.drop_oldest();
 }
 
 void SettledSums::freeze_oldest_spell(const DriftTimeline& drift) {
   const SwayTimeline& sway = drift.sway();
-  freeze_oldest(spells_, sway.begin(), sway.spell(sway.begin()).mean);
+  if (!spells_.has(sway.begin())) return;
+  substitute_by_focal(spells_.of(sway.begin()), sway.spell(sway.begin()));
+  spells_.drop_oldest();
 }
 
 void SettledSums::freeze_latency(double latency_s) {

@@ -57,6 +57,10 @@ class SettledSums {
     std::uint32_t end() const { return begin + static_cast<std::uint32_t>(places.size()); }
     bool has(std::uint32_t number) const { return number >= begin && number < end(); }
     int of(std::uint32_t number) const { return places[number - begin]; }
+    void drop_oldest() {
+      places.erase(places.begin());
+      ++begin;
+    }
   };
 
   /// Where a node or a spell stands in the head and in the total.
@@ -69,7 +73,7 @@ class SettledSums {
   int place_of(Places& of, std::uint32_t number);
   void substitute(int gone, const std::array<int, 2>& by, const std::array<double, 2>& weights,
                   const Eigen::Matrix<double, kBlock, 1>& deviation);
-  void freeze_oldest(Places& of, std::uint32_t number, const Eigen::Matrix<double, kBlock, 1>& value);
+  void substitute_by_focal(int gone, const Spell& spell);
   void release(int place);
   void couple(int a, int b);
   void add_eliminated(const Landmark& landmark, double sign);

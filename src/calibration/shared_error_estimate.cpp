@@ -61,7 +61,8 @@ SharedErrorEstimate::SharedErrorEstimate(const PositionAccuracy& reported, const
 void SharedErrorEstimate::believe_in_sway(double expected_position_variance_m2, bool noise_lasts) {
   constexpr double kShareOfOpening = 0.1;
   const double share = !noise_lasts ? 0.0 : is_opening ? kShareOfOpening : 1.0;
-  drift.sway().set_variance(share * noise.position_factor() * expected_position_variance_m2,
+  const double ripple_m2 = calibration.has_unknown_focal() ? drift.ripple_between_nodes_m2() : 0.0;
+  drift.sway().set_variance(share * (noise.position_factor() * expected_position_variance_m2 + ripple_m2),
                             share * noise.attitude_variance_rad2());
 }
 
@@ -103,8 +104,12 @@ void SharedErrorEstimate::take(const ArrowheadSolver::Solution& solution) {
   for (std::uint32_t number = drift.begin(); number != drift.end(); ++number)
     drift.node(number).mean = solution.node(number);
   SwayTimeline& sway = drift.sway();
-  for (std::uint32_t number = sway.begin(); number != sway.end(); ++number)
-    sway.spell(number).mean = solution.spell(number);
+  for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
+    Spell& spell = sway.spell(number);
+    spell.mean = solution.spell(number);
+    spell.per_focal = solution.spell_per_focal(number);
+    spell.focal = calibration.mean[CalibrationIndex::kFocal];
+  }
   calibration_root = root_of(calibration);
   drift_root = root_of(solution.newest_node_covariance());
 }

@@ -72,7 +72,9 @@ struct SharedErrorEstimate {
   double offset_sigma_m() const { return accuracy.offset_sigma_m(drift.position_scale()); }
 
   /// Takes the sway to be as strong as the noise of the frames. While the flight opens it is a tenth of that,
-  /// since the looks bear it all. Noise that does not last from one frame to the next is no sway.
+  /// since the looks bear it all. Noise that does not last from one frame to the next is no sway. Where the
+  /// focal length is an unknown, what the position ripples by between the nodes is added: it would be taken
+  /// for tilts, by which the image shows the focal length.
   void believe_in_sway(double expected_position_variance_m2, bool noise_lasts);
 
   /// For the next solution.

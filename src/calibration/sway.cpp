@@ -42,14 +42,22 @@ std::uint32_t SwayTimeline::cover(VehicleTime time, std::uint32_t node, double s
     next.transition = std::exp(-std::abs(seconds(time - before.begin)) / time_constant_s_);
     next.innovation_share = std::max(1e-6, 1.0 - next.transition * next.transition);
     next.mean = next.transition * before.mean;
+    next.per_focal = next.transition * before.per_focal;
+    next.focal = before.focal;
   }
   spell(end_) = next;
   return end_++;
 }
 
 void SwayTimeline::freeze_oldest() {
+  const Spell& frozen = spell(begin_);
   Spell& heir = spell(begin_ + 1);
-  heir.prior_mean = heir.transition * spell(begin_).mean;
+  const SwayVector by_focal = frozen.per_focal - frozen.prior_per_focal;
+  const SwayVector weighted = information(begin_).cwiseProduct(by_focal);
+  of_focal_.information += weighted.dot(by_focal);
+  of_focal_.vector -= weighted.dot(frozen.constant() - frozen.prior_mean);
+  heir.prior_mean = heir.transition * frozen.constant();
+  heir.prior_per_focal = heir.transition * frozen.per_focal;
   heir.transition = 0.0;
   ++begin_;
 }

@@ -28,11 +28,28 @@ struct Spell {
   std::uint32_t node = 0;  ///< of the drift, the one before
   int part = 0;            ///< of the time between the two nodes
   SwayVector mean = SwayVector::Zero();
+  /// What the estimate changes by with the logarithm of the focal length, where that is an unknown, and the
+  /// one that `mean` belongs to. What is frozen goes on to depend on it: held at `mean`, it would vouch for
+  /// that focal length.
+  SwayVector per_focal = SwayVector::Zero();
+  double focal = 0.0;
   /// Prior given the spell before: mean = transition * (its mean), variance = innovation_share * that of the
-  /// sway. Of the oldest spell estimated, prior_mean stands for the spell before.
+  /// sway. Of the oldest spell estimated, prior_mean and prior_per_focal stand for the spell before, as
+  /// constant() and per_focal.
   double transition = 0.0;
   double innovation_share = 1.0;
   SwayVector prior_mean = SwayVector::Zero();
+  SwayVector prior_per_focal = SwayVector::Zero();
+
+  SwayVector at(double focal_logarithm) const { return mean + (focal_logarithm - focal) * per_focal; }
+  /// At the nominal focal length.
+  SwayVector constant() const { return at(0.0); }
+};
+
+/// What is known of the focal length's logarithm by itself, in information form.
+struct FocalInformation {
+  double information = 0.0;
+  double vector = 0.0;
 };
 
 /// The spells of the last seconds, numbered from 0 at the start of the flight. Never allocates after
@@ -71,9 +88,15 @@ class SwayTimeline {
     return (spell(number).innovation_share * variance_.array().max(kLeastVariance)).inverse();
   }
 
-  void clear() { begin_ = end_; }
+  /// By the priors of the spells that are frozen.
+  const FocalInformation& of_focal() const { return of_focal_; }
 
-  /// The oldest spell's estimate becomes the fixed start of what follows.
+  void clear() {
+    begin_ = end_;
+    of_focal_ = {};
+  }
+
+  /// The oldest spell's estimate becomes the start of what follows.
   void freeze_oldest();
 
  private:
@@ -85,6 +108,7 @@ class SwayTimeline {
   double time_constant_s_;
   SwayVector variance_ = SwayVector::Zero();
   std::vector<Spell> spells_;  // a ring; its length is a power of two
+  FocalInformation of_focal_;
   std::uint32_t begin_ = 0;
   std::uint32_t end_ = 0;
 };

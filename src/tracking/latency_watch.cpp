@@ -94,11 +94,19 @@ LatencyWatch::Distance LatencyWatch::distance_of_pair(std::size_t age, double la
   return distance;
 }
 
-/// Over the newest pairs whose vehicle states are known at that latency.
-LatencyWatch::Distance LatencyWatch::distance(double latency_s, const CalibratedViewer& viewer) const {
+/// Where frames show the world later than their stamps, the vehicle's states of the newest are yet to come.
+std::size_t LatencyWatch::newest_known(double latency_s, const CalibratedViewer& viewer) const {
+  std::size_t age = 0;
+  while (age < size_ && !viewer.at(frame(age).stamp, latency_s)) ++age;
+  return age;
+}
+
+/// Over the newest pairs whose vehicle states are known at that latency, from that age on.
+LatencyWatch::Distance LatencyWatch::distance(double latency_s, const CalibratedViewer& viewer,
+                                              std::size_t least_age) const {
   Distance sum;
   int pairs = 0;
-  for (std::size_t age = 0; age < size_ && pairs < kMostPairs; ++age) {
+  for (std::size_t age = least_age; age < size_ && pairs < kMostPairs; ++age) {
     const Distance pair = distance_of_pair(age, latency_s, viewer);
     if (pair.looks == 0) continue;
     sum.add(pair);
@@ -141,10 +149,14 @@ class LatencyWatch::Grid {
   std::optional<int> best_;
 };
 
+bool LatencyWatch::is_hopeless(const Distance& distance) {
+  return distance.looks >= kLeastLooks && distance.mean_px2() >= kHopeless_px2;
+}
+
 std::optional<double> LatencyWatch::search(const CalibratedViewer& viewer) const {
   const double present_s = viewer.errors.calibration.latency_s();
   const Distance present = distance(present_s, viewer);
-  if (present.looks < kLeastLooks || present.mean_px2() < kHopeless_px2) return std::nullopt;
+  if (!is_hopeless(present)) return std::nullopt;
   Grid grid(kFarBetter * present.mean_px2());
   for (int number = 0; number < Grid::kSize; ++number) {
     if (std::abs(Grid::latency_s(number) - present_s) < kLeastLatencyChange_s) continue;
@@ -153,8 +165,15 @@ std::optional<double> LatencyWatch::search(const CalibratedViewer& viewer) const
       grid.set(number, other.mean_px2());
   }
   const auto coarse_s = grid.only_best_s();
-  if (!coarse_s) return std::nullopt;
+  if (!coarse_s || !is_far_better(*coarse_s, present_s, viewer)) return std::nullopt;
   return refined_s(*coarse_s, viewer);
+}
+
+/// By the same pairs: those before the newest may be of a straight leg, on which any latency fits.
+bool LatencyWatch::is_far_better(double latency_s, double present_s, const CalibratedViewer& viewer) const {
+  const std::size_t newest = newest_known(latency_s, viewer);
+  const Distance other = distance(latency_s, viewer, newest), present = distance(present_s, viewer, newest);
+  return is_hopeless(present) && other.mean_px2() < kFarBetter * present.mean_px2();
 }
 
 double LatencyWatch::refined_s(double coarse_s, const CalibratedViewer& viewer) const {

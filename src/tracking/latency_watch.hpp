@@ -60,7 +60,10 @@ class LatencyWatch {
 
   const FrameBoxes& frame(std::size_t age) const { return frames_[(next_ + kFrames - 1 - age) % kFrames]; }
   Distance distance_of_pair(std::size_t age, double latency_s, const CalibratedViewer& viewer) const;
-  Distance distance(double latency_s, const CalibratedViewer& viewer) const;
+  std::size_t newest_known(double latency_s, const CalibratedViewer& viewer) const;
+  Distance distance(double latency_s, const CalibratedViewer& viewer, std::size_t least_age = 0) const;
+  static bool is_hopeless(const Distance& distance);
+  bool is_far_better(double latency_s, double present_s, const CalibratedViewer& viewer) const;
   std::optional<double> search(const CalibratedViewer& viewer) const;
   double refined_s(double coarse_s, const CalibratedViewer& viewer) const;
 

@@ -107,7 +107,9 @@ void SleepingObjects::restore(const Sleeper& sleeper, DriftTimeline& drift, Land
       }
       known.vector += term.B * blend.constant;
     } else if (sway.is_frozen(term.number)) {
-      known.vector += term.B * sway.spell(term.number).mean;
+      const Spell& spell = sway.spell(term.number);
+      known.vector += term.B * spell.constant();
+      landmark.depend_on_focal(term.B * spell.per_focal);
     } else {
       landmark.restore_spell(term.number, sway.spell(term.number).node, term.B, drift);
     }
@@ -147,6 +149,7 @@ Point SleepingObjects::bring_up_to_date(Key key, SharedErrorEstimate& errors) {
   restore(sleeper, errors.drift, scratch_);
   drop_terms(sleeper);
   sleeper.b = scratch_.b();
+  sleeper.B = scratch_.B();
   keep_terms(sleeper, scratch_, errors.drift);
   const Point position =
       sleeper.A.inverse() * scratch_.weighted_position(errors.calibration.mean, errors.drift);

@@ -111,8 +111,12 @@ class ArrowheadProblem : public ::testing::Test {
     for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
       drift_.node(number).mean = solution->node(number);
     SwayTimeline& sway = drift_.sway();
-    for (std::uint32_t number = sway.begin(); number != sway.end(); ++number)
-      sway.spell(number).mean = solution->spell(number);
+    for (std::uint32_t number = sway.begin(); number != sway.end(); ++number) {
+      Spell& spell = sway.spell(number);
+      spell.mean = solution->spell(number);
+      spell.per_focal = solution->spell_per_focal(number);
+      spell.focal = calibration_.mean[CalibrationIndex::kFocal];
+    }
     return *solution;
   }
   ArrowheadSolver::Solution solve() { return solve(solver_, all()); }
@@ -497,6 +501,22 @@ TEST_F(ArrowheadProblem, FreezingASpellAtItsEstimateChangesNoEstimate) {
       EXPECT_LT((drift_.node(drift_.end() - 1).mean - newest).norm(), 1e-8);
       EXPECT_LT((drift_.sway().spell(drift_.sway().end() - 1).mean - sway).norm(), 1e-8);
     }
+  }
+}
+
+/// Held at its estimate alone, it would vouch for the focal length that this belongs to.
+TEST_F(ArrowheadProblem, AFrozenSpellSaysNoMoreOfTheFocalLengthThanBefore) {
+  CalibrationPrior prior;
+  prior.sigma_focal_percent = 50.0;
+  ArrowheadSolver solver(prior, config());
+  make(4, 160, 5.9);
+  solve(solver, all());
+  const Calibration before = calibration_;
+  while (drift_.sway().size() > 1) {
+    freeze_spell();
+    solve(solver, all());
+    EXPECT_LT((calibration_.mean - before.mean).norm(), 1e-8);
+    EXPECT_NEAR(calibration_.sigma(CalibrationIndex::kFocal), before.sigma(CalibrationIndex::kFocal), 1e-8);
   }
 }
 

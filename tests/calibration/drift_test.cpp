@@ -141,6 +141,29 @@ TEST(DriftTimeline, ScalesTheWanderingOfThePositionAndNothingElse) {
   }
 }
 
+/// By the covariance of the process, at many times between two nodes.
+TEST(DriftTimeline, KnowsWhatRipplesBesideItsStraightLines) {
+  for (const double spacing_s : {0.5, 3.0, 10.0}) {
+    const DriftConfig config = config_with(spacing_s);
+    DriftTimeline drift(config);
+    EXPECT_EQ(drift.ripple_between_nodes_m2(), 0.0);
+    for (const double spacings : {0.1, 1.1, 2.1}) cover(drift, spacings * spacing_s);
+    drift.set_position_scale(0.7);
+    const auto covariance = [&](double share) {
+      return std::exp(-std::abs(share) * spacing_s / config.ripple_time_constant_s);
+    };
+    constexpr int kTimes = 2000;
+    double sum = 0.0;
+    for (int i = 0; i < kTimes; ++i) {
+      const double second = (i + 0.5) / kTimes, first = 1.0 - second;
+      sum += 1.0 + first * first + second * second + 2.0 * first * second * covariance(1.0) -
+             2.0 * first * covariance(second) - 2.0 * second * covariance(first);
+    }
+    const double ripple_m2 = config.ripple_share * std::pow(0.7 * kSigmaPosition_m, 2);
+    EXPECT_NEAR(drift.ripple_between_nodes_m2(), ripple_m2 * sum / kTimes, 1e-6 * ripple_m2) << spacing_s;
+  }
+}
+
 /// New nodes that differ from the ones before by the step's variance besides, however the position wanders.
 TEST(DriftTimeline, BeginsNewNodesWhereTheStateStepped) {
   const NodeVector step_variance(0.3, 0.3, 0.0, 0.02);

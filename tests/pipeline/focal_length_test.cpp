@@ -204,7 +204,7 @@ TEST(FocalLength, IsFoundWhereTheHeightChanges) {
 }
 
 TEST(FocalLength, IsFoundWhereTheVehicleLeans) {
-  expect_found(leaning(), 0.8);
+  expect_found(leaning(), 0.85);
 }
 
 TEST(FocalLength, IsFoundByACameraThatLooksAheadAtSurveyedPoints) {
@@ -219,7 +219,7 @@ constexpr double kOfTilts_percent = 0.6;
 /// Over flights with focal lengths and a vehicle's errors as the prior expects them, the mean squared error
 /// of the estimate in units of its stated variance is one where that is right. Of the variance, that of
 /// `without_percent` is left out.
-void expect_right_sigma(const Path& path, double without_percent, const Aids& aids = {}) {
+void expect_right_sigma(const Path& path, double without_percent, const Aids& aids = {}, double most = 3.0) {
   constexpr unsigned kFlights = 16;
   std::mt19937 random(5);
   std::normal_distribution<double> drawn_percent(0.0, kSigmaTold_percent);
@@ -234,19 +234,23 @@ void expect_right_sigma(const Path& path, double without_percent, const Aids& ai
     sum += std::pow(found.focal_percent() - percent, 2) / variance;
   }
   EXPECT_GT(sum / kFlights, 0.5);
-  EXPECT_LT(sum / kFlights, 3.0);
+  EXPECT_LT(sum / kFlights, most);
 }
 
 TEST(FocalLength, IsAsUncertainAsIsStatedWhereTheHeightChanges) {
   expect_right_sigma(rising_and_sinking(), kOfTilts_percent);
 }
 
-/// The receiver is good to 0.3 m here. What the position of a worse one ripples by within seconds is taken
-/// for tilts, and the sigma does not say so.
+/// The receiver is good to 0.3 m.
 TEST(FocalLength, IsAsUncertainAsIsStatedWhereTheVehicleLeans) {
   Aids aids;
   aids.accuracy_m = 0.3;
   expect_right_sigma(leaning(), 0.0, aids);
+}
+
+/// What the position of a worse one ripples by between the nodes is taken for tilts in part.
+TEST(FocalLength, IsLittleMoreUncertainThanIsStatedWhereTheVehicleLeansByAPoorReceiver) {
+  expect_right_sigma(leaning(), 0.0, {}, 4.0);
 }
 
 TEST(FocalLength, IsAsUncertainAsIsStatedAheadOverSurveyedPoints) {

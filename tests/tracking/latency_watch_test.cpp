@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -51,6 +52,28 @@ TEST(LatencyWatch, LeavesToTheSolverWhatIsNear) {
 
 TEST(LatencyWatch, GuessesNothingWhereTheVehicleFliesStraight) {
   EXPECT_FALSE(found_at_start(testing::straight_on, 1.0, 0.0));
+}
+
+/// From some time on the camera shakes, and no attitude tells it. Latencies for which the vehicle's states
+/// are yet to come could be tried on the frames before only, which any latency explains.
+TEST(LatencyWatch, TriesLatenciesOnTheFramesThatThePresentOneIsTriedOn) {
+  constexpr double kShaking_s = 3.4;
+  const auto shaken = [](double time_s) {
+    testing::Pose pose = testing::straight_on(time_s);
+    if (time_s < kShaking_s) return pose;
+    pose.yaw = 0.5 * std::sin(7.3 * time_s);
+    pose.pitch = 0.1 * std::sin(9.1 * time_s);
+    return pose;
+  };
+  WatchedFlight told(testing::straight_on);
+  const WatchedFlight shown(shaken);
+  LatencyWatch watch;
+  for (double exposed_s = 0.5; exposed_s < 8.0; exposed_s += 0.1) {
+    told.fly_until(exposed_s);
+    const auto found =
+        watch.observe(WatchedFlight::stamp(exposed_s), shown.boxes(exposed_s, kGround), told.viewer(true));
+    EXPECT_FALSE(found) << *found << " s at " << exposed_s << " s";
+  }
 }
 
 TEST(LatencyWatch, EndsItsSearchAfterTheStart) {

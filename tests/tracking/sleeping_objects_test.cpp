@@ -51,6 +51,12 @@ class SleepingObject : public ::testing::Test {
     return config;
   }
 
+  static CalibrationPrior prior() {
+    CalibrationPrior prior;
+    prior.sigma_focal_percent = 50.0;
+    return prior;
+  }
+
   LandmarkObservation look(double time_s) {
     LandmarkObservation look;
     look.span = drift_.cover(VehicleTime{from_seconds(time_s)}, 0.4);
@@ -138,7 +144,7 @@ class SleepingObject : public ::testing::Test {
       all.push_back(&object.whole);
       if (!object.is_asleep) awake.push_back(&object.rest);
     }
-    ArrowheadSolver one(CalibrationPrior{}, config()), other(CalibrationPrior{}, config());
+    ArrowheadSolver one(prior(), config()), other(prior(), config());
     const auto expected = one.solve(all, kFlight, drift_);
     const auto found = other.solve(awake, kFlight, drift_, HeightLog(), &sleeping_.settled());
     ASSERT_TRUE(expected && found);
@@ -156,8 +162,12 @@ class SleepingObject : public ::testing::Test {
     // What is frozen later is what was found.
     for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number)
       drift_.node(number).mean = expected->node(number);
-    for (std::uint32_t spell = drift_.sway().begin(); spell != drift_.sway().end(); ++spell)
-      drift_.sway().spell(spell).mean = expected->spell(spell);
+    for (std::uint32_t number = drift_.sway().begin(); number != drift_.sway().end(); ++number) {
+      Spell& spell = drift_.sway().spell(number);
+      spell.mean = expected->spell(number);
+      spell.per_focal = expected->spell_per_focal(number);
+      spell.focal = expected->calibration().mean[CalibrationIndex::kFocal];
+    }
     latency_s_ = expected->calibration().latency_s();
     errors_.calibration = expected->calibration();
     errors_.drift = drift_;
@@ -212,7 +222,7 @@ class SleepingObject : public ::testing::Test {
   SleepingObjects sleeping_{config()};
   std::vector<Object> objects_{kObjects};
   double latency_s_ = 0.0;
-  ArrowheadSolver solver_{CalibrationPrior{}, config()};
+  ArrowheadSolver solver_{prior(), config()};
   SharedErrorEstimate errors_{PositionAccuracy{0.8, 0.2, 0.02, 0.02}, testing::kHeightPrior,
                               NoiseEstimate(0.01), config(), solver_};
 };
