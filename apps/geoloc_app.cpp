@@ -66,7 +66,7 @@ struct Program {
                 }),
         telemetry(telemetry_settings(), inputs.socket.get(), *inputs.guard, *inputs.video, clock),
         outputs(inputs.detector->class_names(), {}) {
-    add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs);
+    add_sinks(given.outputs, inputs.config.estimation, io::OldFile::kKeep, outputs, inputs.passed_on);
     delivery = add_summary_publisher(given.outputs, inputs.config.estimation, outputs);
     if (!given.outputs.wants_raw_fixes()) session.history().only_count_fixes();
     page = open_live_page(given.outputs, given.ground, inputs.config.estimation.live_page, {source(), true},

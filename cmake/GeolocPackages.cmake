@@ -1,5 +1,5 @@
 # Debian packages, which `cpack -G DEB` in the build folder makes: libgeoloc0 has the shared library for C, libgeoloc-dev all that one
-# compiles with, geoloc the programs. Configure with -DCMAKE_INSTALL_PREFIX=/usr for Debian's folders; scripts/packages_deb.sh does.
+# compiles with, geoloc the programs, python3-geoloc the module for Debian's Python. Configure with -DCMAKE_INSTALL_PREFIX=/usr for Debian's folders; scripts/packages_deb.sh does.
 set(GEOLOC_PACKAGE_CONTACT "geoloc maintainers <maintainers@geoloc.invalid>" CACHE STRING "Maintainer that packages name")
 
 set(CPACK_PACKAGE_NAME geoloc)
@@ -41,7 +41,7 @@ if(TARGET geoloc_app AND TARGET geoloc_pages AND CMAKE_INSTALL_PREFIX STREQUAL "
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME geoloc)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_SHLIBDEPS ON)
-  # GStreamer loads these at run time: RTP, the parser of H.264, its decoder, video files; and, to make video, x264.
+  # GStreamer loads these at run time: RTP, the parser of H.264, its decoder, video files, transport streams; and, to make video, x264.
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_DEPENDS
     "gstreamer1.0-plugins-base, gstreamer1.0-plugins-good, gstreamer1.0-plugins-bad, gstreamer1.0-libav")
   set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS "gstreamer1.0-plugins-ugly")
@@ -52,6 +52,20 @@ if(TARGET geoloc_app AND TARGET geoloc_pages AND CMAKE_INSTALL_PREFIX STREQUAL "
   file(GLOB _doc_pages CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/docs/*.md")
   install(FILES ${_doc_pages} "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/CHANGELOG.md"
     DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/geoloc" COMPONENT programs)
+endif()
+
+get_property(_python_version GLOBAL PROPERTY GEOLOC_PYTHON_VERSION)
+if(_python_version)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-geoloc)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  string(REGEX REPLACE "^3\\." "" _minor "${_python_version}")
+  math(EXPR _next_minor "${_minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "python3 (>= ${_python_version}~), python3 (<< 3.${_next_minor}~), python3-numpy (>= 1:1.24)")
+  set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "The Python package: own detections and poses, recordings and experiments,\nin NumPy.")
 endif()
 
 configure_file("${PROJECT_SOURCE_DIR}/packaging/debian/changelog.in" "${PROJECT_BINARY_DIR}/changelog" @ONLY)

@@ -3,7 +3,7 @@
 # scripts/lint.sh [FILE.cpp…]: checks formatting (clang-format) of all our sources, and runs static analysis (clang-tidy) on the
 # files given, or on every file that build/release compiles: library, programs, examples, tests and benchmarks, with those of our
 # headers that they include. Only most fuzz targets, the Python module, the installation test's consumer, apps/sim/no_live_mode.cpp,
-# src/io/json/no_camera_yaml.cpp and src/io/live_page/no_http_server.cpp are left out. Needs build/release configured, as scripts/test.sh does. Takes five minutes
+# src/io/json/no_camera_yaml.cpp, src/io/klv/no_transport_stream.cpp and src/io/live_page/no_http_server.cpp are left out. Needs build/release configured, as scripts/test.sh does. Takes five minutes
 # on two idle cores.
 set -euo pipefail
 ROOT=$(cd "$(dirname "$0")/.." && pwd)

@@ -18,7 +18,7 @@ say "Recording flights"
 rm -rf out/notebooks
 mkdir -p out/notebooks
 build/release/bin/geoloc_sim --record out/notebooks/flight
-build/release/bin/geoloc_sim --record out/notebooks/flight_with_video --video --start-s 60 --end-s 130 --frame-rate 4
+build/release/bin/geoloc_sim --record out/notebooks/flight_with_video --video --start-s 60 --end-s 130 --frame-rate 2.5
 [ $# -gt 0 ] || set -- examples/notebooks/*.ipynb
 say "Executing"
 build/notebooks/bin/python scripts/notebooks.py out/notebooks "$@"

@@ -16,6 +16,8 @@ install_packages "${BUILD_PACKAGES[@]}" "${GDAL_PACKAGES[@]}" "${RUN_PACKAGES[@]
 install_from_pypi build/consumers tests/apps/requirements.txt --only-binary :all: --no-deps
 # The Python module is built and tested in another.
 [ "$preset" = asan ] || install_from_pypi build/python tests/python/requirements.txt --only-binary :all: --no-deps
+# So are the notebooks, as those who read them do.
+[ "$preset" = asan ] || install_from_pypi build/notebooks examples/notebooks/requirements.txt --only-binary :all: --no-deps --no-compile
 [ "$preset" = asan ] || bash scripts/openvino.sh  # with both back ends; the sanitizers check a build with OpenCV alone
 configure "$preset" "$@"
 say "Building ($preset)"

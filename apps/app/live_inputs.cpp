@@ -12,12 +12,14 @@ namespace geoloc::apps {
 namespace {
 
 std::unique_ptr<io::VideoSource> make_video_source(const LiveOptions& options, const io::VideoConfig& config,
-                                                   const io::HostClock& clock) {
+                                                   const io::HostClock& clock,
+                                                   const std::shared_ptr<io::HeldVideo>& passed_on) {
   if (options.rtsp_url.empty() == options.video_file.empty()) {
     throw std::invalid_argument("give one of --rtsp URL and --video FILE");
   }
-  if (!options.rtsp_url.empty()) return std::make_unique<io::RtspSource>(options.rtsp_url, config, clock);
-  return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock);
+  if (!options.rtsp_url.empty())
+    return std::make_unique<io::RtspSource>(options.rtsp_url, config, clock, passed_on);
+  return std::make_unique<io::FileSource>(options.video_file, io::Playback{}, config, clock, passed_on);
 }
 
 void add_line(const std::string& line, std::string& text) {
@@ -76,7 +78,8 @@ LiveInputs open_inputs(const LiveOptions& options, const io::HostClock& clock) {
   });
   attempt([&] { open_socket(options, inputs); });
   attempt([&] { guard_link(inputs); });
-  attempt([&] { inputs.video = make_video_source(options, inputs.config.video, clock); });
+  if (!options.outputs.klv.empty()) inputs.passed_on = std::make_shared<io::HeldVideo>();
+  attempt([&] { inputs.video = make_video_source(options, inputs.config.video, clock, inputs.passed_on); });
   if (!faults.empty()) throw std::runtime_error(faults);
   return inputs;
 }

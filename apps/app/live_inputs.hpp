@@ -9,6 +9,7 @@
 #include "app/signing_store.hpp"
 #include "geoloc/io/detection/detector.hpp"
 #include "geoloc/io/host_clock.hpp"
+#include "geoloc/io/klv/held_video.hpp"
 #include "geoloc/io/mavlink/link_guard.hpp"
 #include "geoloc/io/mavlink/udp_socket.hpp"
 #include "geoloc/io/recording/recording.hpp"
@@ -25,7 +26,8 @@ struct LiveInputs {
   std::unique_ptr<io::UdpSocket> socket;        ///< nullptr: nobody asked for it, and the port is taken
   std::unique_ptr<SigningStore> signing_store;  ///< nullptr where nothing is signed
   std::unique_ptr<io::LinkGuard> guard;
-  std::unique_ptr<io::VideoSource> video;  ///< refers to the clock
+  std::shared_ptr<io::HeldVideo> passed_on;  ///< the video as it came, for --klv; nullptr without
+  std::unique_ptr<io::VideoSource> video;    ///< refers to the clock
 };
 
 /// Loads, binds and opens all of it. Throws std::runtime_error that lists everything that is wrong with

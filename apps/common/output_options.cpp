@@ -7,6 +7,8 @@
 
 #include "common/session_summary.hpp"
 #include "geoloc/io/fleet/summary_file.hpp"
+#include "geoloc/io/klv/klv_sink.hpp"
+#include "geoloc/io/klv/klv_target.hpp"
 #include "geoloc/io/output/cot_sink.hpp"
 #include "geoloc/io/output/csv.hpp"
 #include "geoloc/io/output/file_sink.hpp"
@@ -111,6 +113,12 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
               "FILE");
   add_file(program, "--raw", options.raw, "Every located detection, CSV");
   add_file(program, "--rosbag", options.rosbag, "Trajectory, raw fixes and objects as a bag of ROS 2, MCAP");
+  program
+      .add_option("--klv", options.klv,
+                  "The video with what its frames show, MISB ST 0601 in an MPEG transport stream: FILE, or "
+                  "udp://HOST:PORT; of a recording, without the video")
+      ->type_name("FILE|URL")
+      ->group("Outputs");
   add_file(program, "--summary", options.summary,
            "All that the flight knows of its objects, for geoloc_fuse; JSON where the name ends in .json");
   program
@@ -131,6 +139,7 @@ NamedFiles files_of(const OutputOptions& options) {
   add_named(files, "--kml", options.kml);
   add_named(files, "--picture", options.picture);
   add_named(files, "--rosbag", options.rosbag);
+  if (!io::parse_klv_target(options.klv)) add_named(files, "--klv", options.klv);
   add_named(files, "--summary", options.summary);
   for (const std::string& target : options.jsonl) {
     if (target != "-") add_named(files, "--jsonl", target);
@@ -146,7 +155,7 @@ NamedFiles inputs_of(const OutputOptions& options) {
 }
 
 void add_sinks(const OutputOptions& options, const EstimationConfig& config, io::OldFile old_files,
-               Outputs& outputs) {
+               Outputs& outputs, std::shared_ptr<io::HeldVideo> video) {
   const auto add = [&](const char* option, const std::string& file, io::FileSink::Render render) {
     if (file.empty()) return;
     outputs.add(std::make_unique<io::FileSink>(option, io::ResultFile(file, old_files, outputs.teller()),
@@ -168,6 +177,8 @@ void add_sinks(const OutputOptions& options, const EstimationConfig& config, io:
     outputs.add(std::make_unique<io::CotSink>(target, config.cot, outputs.teller()));
   add("--picture", options.picture, [](const io::RunRecord& run) { return io::to_svg(io::picture_of(run)); });
   add("--rosbag", options.rosbag, io::run_to_rosbag);
+  if (!options.klv.empty())
+    outputs.add(std::make_unique<io::KlvSink>(options.klv, old_files, outputs.teller(), std::move(video)));
   check_summary(options, config);
   add("--summary", options.summary, [is_json = ends_in_json(options.summary)](const io::RunRecord& run) {
     return summary_text(run, is_json);

@@ -9,6 +9,7 @@
 #include "common/mqtt_options.hpp"
 #include "common/output_files.hpp"
 #include "common/outputs.hpp"
+#include "geoloc/io/klv/held_video.hpp"
 #include "geoloc/io/mqtt/summary_publisher.hpp"
 #include "geoloc/io/output/result_file.hpp"
 
@@ -20,6 +21,7 @@ struct OutputOptions {
   std::string raw;                 ///< CSV of every located detection
   std::string picture;             ///< SVG
   std::string rosbag;              ///< MCAP
+  std::string klv;                 ///< MPEG transport stream: file, or udp://HOST:PORT
   std::string http;                ///< [HOST:]PORT of the live page
   std::string http_token;          ///< file of the token that the live page asks for; empty: it asks for none
   std::string map;                 ///< file of the page's background map
@@ -45,8 +47,8 @@ struct OutputOptions {
 /// --http-token, --map.
 void add_object_outputs(CLI::App& program, OutputOptions& options);
 
-/// These, and the outputs of a run: --jsonl, --raw, --rosbag, --summary, --flight-id, --mqtt and what belongs
-/// to it.
+/// These, and the outputs of a run: --jsonl, --raw, --rosbag, --klv, --summary, --flight-id, --mqtt and what
+/// belongs to it.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
 /// Those of them that are files, for check_outputs().
@@ -59,9 +61,10 @@ NamedFiles inputs_of(const OutputOptions& options);
 void add_summary(const OutputOptions& options, const Session& session, io::RunRecord& run);
 
 /// A sink for each, but for the live page (open_live_page()). `old_files`: of the names that are in use.
-/// Throws std::invalid_argument for a target that is none.
+/// `video` is what --klv passes on; nullptr: the run has none. Throws std::invalid_argument for a target that
+/// is none.
 void add_sinks(const OutputOptions& options, const EstimationConfig& config, io::OldFile old_files,
-               Outputs& outputs);
+               Outputs& outputs, std::shared_ptr<io::HeldVideo> video = nullptr);
 
 /// The sink of --mqtt; nullptr where there is none. Throws std::exception saying what is wrong with it.
 std::shared_ptr<const io::SummaryDelivery> add_summary_publisher(const OutputOptions& options,

@@ -26,6 +26,11 @@ void Outputs::complete(std::vector<io::ObjectReport>& objects) const {
   geoid_.complete(objects);
 }
 
+void Outputs::complete(io::ViewReport& view) const {
+  geoid_.complete(view.camera, view.camera_height);
+  geoid_.complete(view.image_centre ? view.image_centre->position : view.camera, view.ground_height);
+}
+
 void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool is_located) {
   if (streams_.empty()) return;
   const auto report = std::make_shared<io::OutputFrame>(
@@ -33,6 +38,7 @@ void Outputs::post_frame(const Session& session, const PendingFrame& frame, bool
   report->number = session.frames() - 1;
   for (std::size_t i = 0; i < report->fixes.size(); ++i) report->fixes[i].look = session.looks()[i];
   complete(report->objects);
+  if (report->view) complete(*report->view);
   for (io::SinkRunner* sink : streams_) sink->post(report);
 }
 

@@ -51,6 +51,8 @@ class Outputs {
   std::vector<std::string> take_messages() { return messages_->take(); }
 
  private:
+  void complete(io::ViewReport& view) const;
+
   io::FrameReporter reporter_;
   io::SinkRunnerConfig config_;
   io::Geoid geoid_;

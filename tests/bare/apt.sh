@@ -48,6 +48,12 @@ say "A flight on the loopback, its model and its telemetry found below /usr/shar
 found='found (2[5-9]|30) / 30, RMSE 0\.[01].*extra 0, merged pairs 0'
 grep -Eq "$found" "$work/fly.log" || fail "the flight's targets were not found"
 geoloc_replay "$work/flight/recording" --out "$work/again.geojson" 2>&1 | grep -Eq "$found" || fail "the replay found others"
+geoloc_replay "$work/flight/recording" --klv "$work/again.ts" >/dev/null || fail "--klv"
+[ "$(head -c 1 "$work/again.ts")" = G ] || fail "--klv writes no transport stream"
+
+say "apt-get install python3-geoloc: README's program in Python"
+install --no-install-recommends "$packages"/python3-geoloc_*.deb
+python3 tests/bare/readme_example.py README.md
 
 say "Manual, completions, service"
 install --no-install-recommends man-db zsh fish systemd

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What estimate.cpp and estimate.c do with a feed, in Python."""
 
+import pathlib
+import sys
+
 import numpy as np
 from feed import doubles, hex_of
 
@@ -48,3 +51,7 @@ def estimate(feed):
     outcomes += geolocator.finish()
     told = [f"F {round(outcome.time_s * 1e9)} {int(outcome.fate)}" for outcome in outcomes]
     return "\n".join([*told, *objects_of(geolocator)]) + "\n"
+
+
+if __name__ == "__main__":
+    print(estimate(pathlib.Path(sys.argv[1]).read_text()), end="")

@@ -37,10 +37,11 @@ std::optional<double> Geoid::height_ellipsoid_m(const Geodetic& position, double
 }
 
 void Geoid::complete(std::vector<ObjectReport>& objects) const {
-  for (ObjectReport& object : objects) {
-    if (object.height.msl_m)
-      object.height.ellipsoid_m = height_ellipsoid_m(object.position, *object.height.msl_m);
-  }
+  for (ObjectReport& object : objects) complete(object.position, object.height);
+}
+
+void Geoid::complete(const Geodetic& position, HeightReport& height) const {
+  if (height.msl_m) height.ellipsoid_m = height_ellipsoid_m(position, *height.msl_m);
 }
 
 }  // namespace geoloc::io

@@ -48,6 +48,22 @@ std::optional<std::array<GroundPoint, 4>> footprint(const Geolocator& geolocator
   return corners;
 }
 
+/// Against the vehicle's own axes, as if its nose pointed north and its wings were level.
+CameraSight sight_in_vehicle(const FrameView& view) {
+  const Eigen::Quaterniond body_from_camera =
+      view.vehicle.enu_from_body.rotation.conjugate() * view.enu_from_camera.rotation;
+  return sight_of(enu_from_ned() * body_from_camera, 0.0);
+}
+
+/// A height of the view, which is lifted.
+HeightReport height_in(const Geolocator& geolocator, double in_view_m) {
+  HeightReport height;
+  height.above_home_m = in_view_m - geolocator.view().lifted_m;
+  if (const auto home_msl_m = geolocator.state().home_height_msl_m())
+    height.msl_m = *home_msl_m + height.above_home_m;
+  return height;
+}
+
 ViewReport report_view(const Geolocator& geolocator) {
   const FrameView& view = geolocator.view();
   const Eigen::Vector3d& vehicle_in_enu = view.vehicle.enu_from_body.translation;
@@ -65,6 +81,10 @@ ViewReport report_view(const Geolocator& geolocator) {
   report.footprint = footprint(geolocator);
   report.image_centre = seen_at(centre_px(image), geolocator);
   report.sight = sight(geolocator, convergence_rad);
+  report.camera = geolocator.local_frame()->to_geodetic(view.enu_from_camera.translation.head<2>());
+  report.camera_in_vehicle = sight_in_vehicle(view);
+  report.camera_height = height_in(geolocator, view.enu_from_camera.translation.z());
+  report.ground_height = height_in(geolocator, geolocator.projector().config().ground_height_above_home_m);
   return report;
 }
 

@@ -11,20 +11,16 @@
 #include "geoloc/io/video/camera_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "gst_pipeline.hpp"
+#include "io/gst/gst_elements.hpp"
+#include "picture_tap.hpp"
 #include "sei_buffer.hpp"
 
 namespace geoloc::io {
 namespace {
 
-/// Longer than any file; keeps a damaged time stamp from overflowing the clock.
-constexpr GstClockTime kLongestFile = 365ULL * 24 * 3600 * GST_SECOND;
-
 /// The sample's time from the beginning of the file.
 std::optional<Duration> time_of(GstSample* sample) {
-  const GstClockTime pts = GST_BUFFER_PTS(gst_sample_get_buffer(sample));
-  const guint64 running = gst_segment_to_running_time(gst_sample_get_segment(sample), GST_FORMAT_TIME, pts);
-  if (running == GST_CLOCK_TIME_NONE || running > kLongestFile) return std::nullopt;
-  return Duration{static_cast<std::int64_t>(running)};
+  return running_time(gst_sample_get_segment(sample), GST_BUFFER_PTS(gst_sample_get_buffer(sample)));
 }
 
 }  // namespace
@@ -32,8 +28,12 @@ std::optional<Duration> time_of(GstSample* sample) {
 class FileSource::Impl {
  public:
   Impl(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
-       const HostClock& clock)
-      : pace_(playback.pace), starts_at_(playback.starts_at), config_(config), clock_(clock) {
+       const HostClock& clock, std::shared_ptr<EncodedVideoTaker> taker)
+      : pace_(playback.pace),
+        starts_at_(playback.starts_at),
+        config_(config),
+        clock_(clock),
+        tap_(std::move(taker)) {
     refuse_if_any(config_.problems());
     if (!std::filesystem::is_regular_file(file))
       throw std::runtime_error(file.string() + ": there is no such file");
@@ -78,7 +78,7 @@ class FileSource::Impl {
     g_object_set(sink, "sync", is_real_time, "drop", is_real_time, nullptr);
     gst_element_link(source, decoder);
     gst_element_link(converter_, sink);
-    g_signal_connect(decoder, "element-added", G_CALLBACK(on_element), nullptr);
+    g_signal_connect(decoder, "element-added", G_CALLBACK(on_element), this);
     g_signal_connect(decoder, "pad-added", G_CALLBACK(on_pad), this);
     g_signal_connect(decoder, "no-more-pads", G_CALLBACK(on_all_pads), this);
     const GstObjectPtr<GstBus> bus{gst_element_get_bus(pipeline_.get())};
@@ -104,11 +104,13 @@ class FileSource::Impl {
     return GstObjectPtr<GstPad>{gst_element_get_static_pad(converter_, "sink")};
   }
 
-  static void on_element(GstBin*, GstElement* element, gpointer) {
+  static void on_element(GstBin*, GstElement* element, gpointer self) {
     const GstElementFactory* const factory = gst_element_get_factory(element);
-    if (factory == nullptr || std::string_view(GST_OBJECT_NAME(factory)) != "h265parse") return;
+    const std::string_view name = factory != nullptr ? GST_OBJECT_NAME(factory) : "";
+    if (name != "h264parse" && name != "h265parse") return;
     const GstObjectPtr<GstPad> parsed{gst_element_get_static_pad(element, "src")};
-    read_telemetry_at(parsed.get());
+    if (name == "h265parse") read_telemetry_at(parsed.get());
+    static_cast<Impl*>(self)->tap_.open_at(parsed.get());
   }
 
   /// Sound does not fit the converter, so it stays unlinked.
@@ -168,6 +170,7 @@ class FileSource::Impl {
     frame.damaged = GST_BUFFER_FLAG_IS_SET(gst_sample_get_buffer(sample), GST_BUFFER_FLAG_CORRUPTED);
     if (const auto record = telemetry_of(gst_sample_get_buffer(sample)))
       frame.telemetry = {camera_clock_.to_host(record->made_at, now), *record};
+    tap_.note(frame, time);
     if (pace_ == Pace::kAsTaken) return exchange_.offer_and_wait(std::move(frame));
     exchange_.offer(std::move(frame));
     return true;
@@ -177,6 +180,7 @@ class FileSource::Impl {
   std::optional<HostTime> starts_at_;  // set by the constructor or by the first frame
   const VideoConfig config_;
   const HostClock& clock_;
+  PictureTap tap_;
   CameraClock camera_clock_;
   FrameExchange exchange_;
   mutable std::mutex tags_mutex_;
@@ -186,8 +190,8 @@ class FileSource::Impl {
 };
 
 FileSource::FileSource(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
-                       const HostClock& clock)
-    : impl_(std::make_unique<Impl>(file, playback, config, clock)) {}
+                       const HostClock& clock, std::shared_ptr<EncodedVideoTaker> taker)
+    : impl_(std::make_unique<Impl>(file, playback, config, clock, std::move(taker))) {}
 
 FileSource::~FileSource() = default;
 

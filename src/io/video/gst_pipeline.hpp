@@ -5,24 +5,12 @@
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <string>
 
 #include "geoloc/geometry/time.hpp"
-#include "gst_handles.hpp"
+#include "io/gst/gst_handles.hpp"
 
 // Functions shared by the sources of live and of recorded video.
 namespace geoloc::io {
-
-/// Initialises GStreamer, once. Throws std::runtime_error with its reason.
-void init_gstreamer();
-
-bool has_element(const char* name);
-
-/// Throws std::runtime_error naming the element and the package it comes in.
-void require_element(const char* name, const char* debian_package);
-
-/// The pipeline owns the element. Throws std::runtime_error if there is no such element.
-GstElement* add_element(GstElement* pipeline, const char* name);
 
 /// An appsink for BGR pictures that holds one frame; `callbacks` are called with `user` in the streaming
 /// thread.
@@ -30,9 +18,6 @@ GstElement* add_bgr_sink(GstElement* pipeline, GstAppSinkCallbacks callbacks, vo
 
 /// When a file was made, as its container tells, in UTC; nullopt where it tells no date and time of day.
 std::optional<HostTime> creation_time_of(const GstTagList* tags);
-
-/// The reason in an error message.
-std::string error_text(GstMessage* message);
 
 /// A copy of the picture; nullopt if it is not BGR, empty, larger than max_megapixels, or shorter than its
 /// header says.

@@ -3,7 +3,7 @@
 
 #include <gst/rtp/rtp.h>
 
-#include "gst_handles.hpp"
+#include "io/gst/gst_handles.hpp"
 
 namespace geoloc::io {
 namespace {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "gst_pipeline.hpp"
+#include "io/gst/gst_elements.hpp"
 #include "rtcp_report.hpp"
 #include "sei_buffer.hpp"
 
@@ -95,11 +96,12 @@ void require_rtsp_elements() {
 }
 
 RtspSession::RtspSession(const std::string& url, const VideoConfig& config, const HostClock& clock,
-                         CameraClock& camera_clock, FrameExchange& exchange)
+                         CameraClock& camera_clock, FrameExchange& exchange, PictureTap tap)
     : config_(config),
       clock_(clock),
       camera_clock_(camera_clock),
       exchange_(exchange),
+      tap_(std::move(tap)),
       alive_at_(clock.now()),
       timing_(from_seconds(config.latency_s)),
       relay_(url, config.transport),
@@ -190,6 +192,7 @@ void RtspSession::build_decoder(GstPad* stream) {
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER),
       on_parsed, this, nullptr);
   if (codec_ == VideoCodec::kH265) read_telemetry_at(parsed.get());
+  tap_.open_at(parsed.get());
   gst_pad_add_probe(stream,
                     static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST),
                     on_packets, this, nullptr);
@@ -275,6 +278,7 @@ void RtspSession::deliver(GstSample* sample) {
   alive_at_ = now;
   relay_.note_frame();
   has_delivered_ = true;
+  tap_.note(frame, running_time(gst_sample_get_segment(sample), GST_BUFFER_PTS(buffer)));
   exchange_.offer(std::move(frame));
 }
 

@@ -12,7 +12,8 @@
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "geoloc/io/video/rtp_payload.hpp"
 #include "geoloc/io/video/video_config.hpp"
-#include "gst_handles.hpp"
+#include "io/gst/gst_handles.hpp"
+#include "picture_tap.hpp"
 #include "stream_relay.hpp"
 #include "stream_timing.hpp"
 
@@ -26,9 +27,10 @@ void require_rtsp_elements();
 /// GStreamer's, which ends with the pipeline.
 class RtspSession {
  public:
-  /// Begins to connect. Everything passed by reference must outlive the session.
+  /// Begins to connect. Everything passed by reference must outlive the session. The encoded pictures go to
+  /// the tap, too.
   RtspSession(const std::string& url, const VideoConfig& config, const HostClock& clock,
-              CameraClock& camera_clock, FrameExchange& exchange);
+              CameraClock& camera_clock, FrameExchange& exchange, PictureTap tap);
   /// Takes a moment, whatever the server does.
   ~RtspSession();
   RtspSession(const RtspSession&) = delete;
@@ -65,6 +67,7 @@ class RtspSession {
   const HostClock& clock_;
   CameraClock& camera_clock_;  // used where frames are delivered
   FrameExchange& exchange_;
+  PictureTap tap_;
 
   std::atomic<bool> has_selected_{false};
   std::atomic<bool> is_too_large_{false};

@@ -12,7 +12,7 @@
 #include "geoloc/io/video/camera_clock.hpp"
 #include "geoloc/io/video/frame_exchange.hpp"
 #include "geoloc/io/video/stream_url.hpp"
-#include "gst_pipeline.hpp"
+#include "io/gst/gst_elements.hpp"
 #include "rtsp_session.hpp"
 
 namespace geoloc::io {
@@ -25,8 +25,13 @@ constexpr double kPauseOfFault_s = 10.0;
 
 class RtspSource::Impl {
  public:
-  Impl(std::string url, const VideoConfig& config, const HostClock& clock)
-      : url_(std::move(url)), config_(config), clock_(clock) {
+  Impl(std::string url, const VideoConfig& config, const HostClock& clock,
+       std::shared_ptr<EncodedVideoTaker> taker)
+      : url_(std::move(url)),
+        config_(config),
+        clock_(clock),
+        taker_(std::move(taker)),
+        began_at_(clock.now()) {
     if (!is_rtsp_url(url_)) {
       throw std::invalid_argument("not an RTSP address: " + without_credentials(url_) +
                                   " (expected rtsp://[user:password@]host[:port]/path)");
@@ -76,7 +81,8 @@ class RtspSource::Impl {
     Outcome outcome;
     std::string why;
     try {
-      const RtspSession session{url_, config_, clock_, camera_clock_, exchange_};
+      const RtspSession session{url_,          config_,   clock_,
+                                camera_clock_, exchange_, PictureTap(taker_, clock_.now() - began_at_)};
       why = session.wait_until_over(stop_);
       outcome = {session.has_delivered(), session.is_server_at_fault()};
     } catch (const std::exception& error) {
@@ -91,6 +97,8 @@ class RtspSource::Impl {
   const std::string url_;
   const VideoConfig config_;
   const HostClock& clock_;
+  const std::shared_ptr<EncodedVideoTaker> taker_;
+  const HostTime began_at_;
   CameraClock camera_clock_;  // outlives connections
   FrameExchange exchange_;
   std::mutex mutex_;
@@ -99,8 +107,9 @@ class RtspSource::Impl {
   std::thread thread_;
 };
 
-RtspSource::RtspSource(std::string url, const VideoConfig& config, const HostClock& clock)
-    : impl_(std::make_unique<Impl>(std::move(url), config, clock)) {}
+RtspSource::RtspSource(std::string url, const VideoConfig& config, const HostClock& clock,
+                       std::shared_ptr<EncodedVideoTaker> taker)
+    : impl_(std::make_unique<Impl>(std::move(url), config, clock, std::move(taker))) {}
 
 RtspSource::~RtspSource() = default;
 

@@ -10,7 +10,7 @@
 
 #include "geoloc/io/sei/sei_reader.hpp"
 #include "geoloc/io/sei/sei_unit.hpp"
-#include "gst_handles.hpp"
+#include "io/gst/gst_handles.hpp"
 
 namespace geoloc::io {
 namespace {

@@ -18,7 +18,7 @@
 #include "file_descriptor.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/io/video/video_config.hpp"
-#include "gst_handles.hpp"
+#include "io/gst/gst_handles.hpp"
 
 struct pollfd;
 

@@ -11,6 +11,7 @@
 
 #include "geoloc/io/partial_file.hpp"
 #include "gst_pipeline.hpp"
+#include "io/gst/gst_elements.hpp"
 #include "sei_buffer.hpp"
 
 namespace geoloc::io {

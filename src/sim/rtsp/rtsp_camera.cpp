@@ -12,6 +12,7 @@
 
 #include "geoloc/geometry/problems.hpp"
 #include "geoloc/geometry/refuse.hpp"
+#include "io/gst/gst_handles.hpp"
 #include "io/video/sei_buffer.hpp"
 
 namespace geoloc::sim {
@@ -20,17 +21,9 @@ namespace {
 constexpr const char* kAddress = "127.0.0.1";
 constexpr const char* kPath = "/cam";
 
-template <auto Release>
-struct Releaser {
-  template <typename T>
-  void operator()(T* object) const {
-    Release(object);
-  }
-};
-template <typename T>
-using GObjectPtr = std::unique_ptr<T, Releaser<g_object_unref>>;
-template <typename T>
-using GstObjectPtr = std::unique_ptr<T, Releaser<gst_object_unref>>;
+using io::GObjectPtr;
+using io::GstObjectPtr;
+using io::Releaser;
 using ContextPtr = std::unique_ptr<GMainContext, Releaser<g_main_context_unref>>;
 using SourcePtr = std::unique_ptr<GSource, Releaser<g_source_unref>>;
 using LoopPtr = std::unique_ptr<GMainLoop, Releaser<g_main_loop_unref>>;

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "collecting_taker.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace geoloc::io {
@@ -67,6 +68,24 @@ TEST_F(FileSourceTest, GivesEveryFrameWithItsTimeWhenPacedByTheCaller) {
     EXPECT_EQ(source.status().state, VideoState::kEnded);
     EXPECT_EQ(source.status().dropped, 0U);
     EXPECT_EQ(source.status().last_error, "");
+  }
+}
+
+TEST_F(FileSourceTest, HandsOnThePicturesAsTheyAreInTheFile) {
+  for (const auto& file : {video("a.mkv", "matroskamux"), video("b.mp4", "mp4mux")}) {
+    const auto taker = std::make_shared<test::CollectingTaker>();
+    FileSource source{file, {Pace::kAsTaken, kStart}, {}, clock_, taker};
+    while (source.next(kPatience)) {
+    }
+    ASSERT_EQ(taker->pictures().size(), static_cast<std::size_t>(kFrames)) << file;
+    for (const EncodedPicture& picture : taker->pictures()) {
+      EXPECT_EQ(picture.format.rfind("video/x-h264", 0), 0U);
+      EXPECT_FALSE(picture.bytes.empty());
+    }
+    ASSERT_EQ(taker->notes().size(), static_cast<std::size_t>(kFrames)) << file;
+    for (const auto& note : taker->notes())
+      EXPECT_NEAR(seconds(note.captured_at - kStart), seconds(note.shown_at), 1e-6);
+    EXPECT_TRUE(taker->knows_all_frames()) << file;
   }
 }
 

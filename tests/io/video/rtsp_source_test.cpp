@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "collecting_taker.hpp"
 #include "rtsp_test_server.hpp"
 
 namespace geoloc::io {
@@ -130,7 +131,9 @@ TEST(RtspSource, ReconnectsWhenTheServerDiesAndComesBack) {
   ServerOptions options;
   auto server = std::make_unique<RtspTestServer>(options, host_clock());
   options.port = server->port();
-  RtspSource source{server->url(), {}, host_clock()};
+  const auto taker = std::make_shared<test::CollectingTaker>();
+  RtspSource source{server->url(), {}, host_clock(), taker};
+  const HostTime begun = host_clock().now();
   ASSERT_TRUE(wait_for(source, is_any));
   server.reset();
   ASSERT_TRUE(wait_for_status(
@@ -142,6 +145,13 @@ TEST(RtspSource, ReconnectsWhenTheServerDiesAndComesBack) {
   ASSERT_TRUE(wait_for(source, [back_at](const VideoFrame& frame) { return frame.received_at > back_at; }));
   EXPECT_EQ(source.status().state, VideoState::kPlaying);
   EXPECT_GE(source.status().attempts, 2U);
+
+  // The video that is handed on goes on in its own time.
+  EXPECT_TRUE(taker->knows_all_frames());
+  const auto pictures = taker->pictures();
+  EXPECT_TRUE(std::is_sorted(pictures.begin(), pictures.end(),
+                             [](const auto& a, const auto& b) { return a.shown_at < b.shown_at; }));
+  EXPECT_GT(pictures.back().shown_at, back_at - begun);
 }
 
 TEST(RtspSource, AFrozenServerIsLeftAndTriedAnew) {

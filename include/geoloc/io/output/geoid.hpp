@@ -34,6 +34,9 @@ class Geoid {
   /// The heights above the ellipsoid of all objects whose heights above the sea are known.
   void complete(std::vector<ObjectReport>& objects) const;
 
+  /// The height above the ellipsoid of what is at that position, where its height above the sea is known.
+  void complete(const Geodetic& position, HeightReport& height) const;
+
  private:
   std::unique_ptr<const GeographicLib::Geoid> geoid_;
 };

@@ -39,6 +39,10 @@ struct ViewReport {
   std::optional<std::array<GroundPoint, 4>> footprint;
   std::optional<GroundPoint> image_centre;
   CameraSight sight;
+  Geodetic camera;                ///< calibration applied
+  CameraSight camera_in_vehicle;  ///< angles alone: from the nose, about the vehicle's own axes
+  HeightReport camera_height;
+  HeightReport ground_height;  ///< at the image's centre
 };
 
 /// One detection of the frame with its position, before any tracking.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "geoloc/io/encoded_video.hpp"
 #include "geoloc/io/host_clock.hpp"
 #include "geoloc/io/video/video_config.hpp"
 #include "geoloc/io/video/video_source.hpp"
@@ -33,9 +34,10 @@ struct FileFacts {
 class FileSource final : public VideoSource {
  public:
   /// Throws std::runtime_error naming the file and the reason if it holds no decodable video. Only the size
-  /// limit of `config` is used. `clock` must outlive the source.
+  /// limit of `config` is used. `clock` must outlive the source. `taker` gets the video as it is in the file,
+  /// if it is H.264 or H.265; nullptr: nobody wants it.
   FileSource(const std::filesystem::path& file, const Playback& playback, const VideoConfig& config,
-             const HostClock& clock);
+             const HostClock& clock, std::shared_ptr<EncodedVideoTaker> taker = nullptr);
   ~FileSource() override;
   FileSource(const FileSource&) = delete;
   FileSource& operator=(const FileSource&) = delete;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "geoloc/io/encoded_video.hpp"
 #include "geoloc/io/host_clock.hpp"
 #include "geoloc/io/video/video_config.hpp"
 #include "geoloc/io/video/video_source.hpp"
@@ -17,8 +18,9 @@ class RtspSource final : public VideoSource {
  public:
   /// Throws std::invalid_argument for a bad address or configuration, std::runtime_error naming the missing
   /// GStreamer element and its package. A server that cannot be reached is no error. `clock` must outlive the
-  /// source.
-  RtspSource(std::string url, const VideoConfig& config, const HostClock& clock);
+  /// source. `taker` gets the stream as it comes; nullptr: nobody wants it.
+  RtspSource(std::string url, const VideoConfig& config, const HostClock& clock,
+             std::shared_ptr<EncodedVideoTaker> taker = nullptr);
   ~RtspSource() override;
   RtspSource(const RtspSource&) = delete;
   RtspSource& operator=(const RtspSource&) = delete;
