@@ -119,7 +119,7 @@ class TelemetryInVideos(VideoTest, Played):
         self.assertIn(265, messages_of(self.recording))
 
     def test_a_camera_that_zooms_tells_it(self):
-        self.assertIn("the camera zooms", self.assert_imported_as_flown("--zoom", "1..4", "--start-s", 60, "--end-s", 130))
+        self.assertIn("the camera zooms", self.assert_imported_as_flown("--zoom", "1..4", "--start-s", 60, "--end-s", 130, "--frame-rate", 5))
 
     def test_a_file_without_it_needs_a_log(self):
         plain = self.folder / "plain"
