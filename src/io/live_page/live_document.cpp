@@ -79,10 +79,9 @@ void LiveDocument::add(const RunRecord& run) {
 
 std::optional<NotedObject> LiveDocument::note(std::uint64_t id, const ObjectNote& note) {
   const std::lock_guard lock(mutex_);
-  const ObjectReport* const object = objects_.confirmed(id);
+  const ObjectReport* const object = objects_.set_note(id, note);
   if (object == nullptr) return std::nullopt;
   publish();
-  objects_.set_note(id, note);
   return NotedObject{newest_at_, id, object->position, note};
 }
 
@@ -105,16 +104,12 @@ RunFigures LiveDocument::figures() const {
 
 void LiveDocument::show_object(std::uint64_t id, std::string jpeg) {
   const std::lock_guard lock(mutex_);
-  if (!objects_.has_room_for_picture_of(id)) return;
-  publish();
-  objects_.set_picture(id, std::move(jpeg));
+  if (objects_.set_picture(id, std::move(jpeg))) publish();
 }
 
 void LiveDocument::forget_picture(std::uint64_t id) {
   const std::lock_guard lock(mutex_);
-  if (objects_.picture_of(id) == nullptr) return;
-  publish();
-  objects_.forget_picture(id);
+  if (objects_.forget_picture(id)) publish();
 }
 
 std::shared_ptr<const std::string> LiveDocument::picture_of(std::uint64_t id) const {

@@ -100,29 +100,29 @@ void LiveObjects::clear() {
   confirmed_ = not_shown_ = 0;
 }
 
-const ObjectReport* LiveObjects::confirmed(std::uint64_t id) const {
+const ObjectReport* LiveObjects::set_note(std::uint64_t id, const ObjectNote& note) {
   const auto found = entries_.find(id);
-  return found == entries_.end() || !found->second.is_confirmed ? nullptr : &found->second.report;
-}
-
-void LiveObjects::set_note(std::uint64_t id, const ObjectNote& note) {
-  const auto found = entries_.find(id);
-  if (found == entries_.end() || !found->second.is_confirmed) return;
+  if (found == entries_.end() || !found->second.is_confirmed) return nullptr;
   found->second.report.note = note;
   write_json(id, found->second);
+  return &found->second.report;
 }
 
-bool LiveObjects::has_room_for_picture_of(std::uint64_t id) const {
-  return pictures_.size() < kMostPictures || pictures_.count(id) > 0;
-}
-
-void LiveObjects::set_picture(std::uint64_t id, std::string jpeg) {
+bool LiveObjects::set_picture(std::uint64_t id, std::string jpeg) {
+  if (pictures_.size() >= kMostPictures && pictures_.count(id) == 0) return false;
   pictures_[id] = {std::make_shared<const std::string>(std::move(jpeg)), ++pictures_made_};
-  if (const auto found = entries_.find(id); found != entries_.end()) write_json(id, found->second);
+  show_picture_of(id);
+  return true;
 }
 
-void LiveObjects::forget_picture(std::uint64_t id) {
-  if (pictures_.erase(id) == 0) return;
+bool LiveObjects::forget_picture(std::uint64_t id) {
+  if (pictures_.erase(id) == 0) return false;
+  show_picture_of(id);
+  return true;
+}
+
+/// The object may be unknown as yet.
+void LiveObjects::show_picture_of(std::uint64_t id) {
   if (const auto found = entries_.find(id); found != entries_.end()) write_json(id, found->second);
 }
 

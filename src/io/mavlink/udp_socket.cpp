@@ -2,7 +2,6 @@
 #include "geoloc/io/mavlink/udp_socket.hpp"
 
 #include <arpa/inet.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <unistd.h>
@@ -10,10 +9,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
+#include "geoloc/io/address_lookup.hpp"
 #include "geoloc/io/endpoint.hpp"
 
 namespace geoloc::io {
@@ -22,20 +22,13 @@ namespace {
 constexpr std::size_t kLargestDatagram = 65536;
 constexpr std::size_t kMapped = 12;  // bytes before an IPv4 address in one of IPv6
 
-using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
-
 AddressList resolve(const UdpEndpoint& endpoint) {
-  addrinfo hints{};
-  hints.ai_socktype = SOCK_DGRAM;
-  hints.ai_flags = AI_NUMERICSERV;
-  addrinfo* found = nullptr;
-  const int status =
-      getaddrinfo(endpoint.host.c_str(), std::to_string(endpoint.port).c_str(), &hints, &found);
-  if (status != 0) {
+  AddressLookup found = look_up(endpoint.host, std::to_string(endpoint.port), SOCK_DGRAM);
+  if (!found.addresses) {
     throw std::runtime_error("UDP " + endpoint.host + ":" + std::to_string(endpoint.port) + ": " +
-                             gai_strerror(status) + "; give an address of this computer, or the port alone");
+                             found.fault + "; give an address of this computer, or the port alone");
   }
-  return {found, &freeaddrinfo};
+  return std::move(found.addresses);
 }
 
 [[noreturn]] void fail_to_bind(const UdpEndpoint& endpoint, int error) {

@@ -2,7 +2,6 @@
 #include "geoloc/io/output/cot_connection.hpp"
 
 #include <net/if.h>
-#include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -16,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "geoloc/io/address_lookup.hpp"
 #include "tls_session.hpp"
 
 namespace geoloc::io {
@@ -31,8 +31,6 @@ constexpr auto kProof = std::chrono::seconds{2};
 /// its words.
 constexpr auto kConsent = std::chrono::milliseconds{500};
 constexpr auto kPause = std::chrono::milliseconds{10};
-
-using AddressList = std::unique_ptr<addrinfo, decltype(&freeaddrinfo)>;
 
 std::string reason_of(int error) {
   return std::generic_category().message(error);
@@ -95,17 +93,13 @@ void CotConnection::set_multicast(int family) const {
 }
 
 void CotConnection::open(Clock::time_point now) {
-  addrinfo hints{};
-  hints.ai_socktype = is_stream() ? SOCK_STREAM : SOCK_DGRAM;
-  hints.ai_flags = AI_NUMERICSERV;
-  addrinfo* found = nullptr;
-  const int status = getaddrinfo(endpoint_.host.c_str(), endpoint_.port.c_str(), &hints, &found);
-  if (status != 0) return fail(now, gai_strerror(status));
-  const AddressList address(found, &freeaddrinfo);
+  const int socket_type = is_stream() ? SOCK_STREAM : SOCK_DGRAM;
+  const auto [address, fault] = look_up(endpoint_.host, endpoint_.port, socket_type);
+  if (!address) return fail(now, fault);
   if (is_multicast(*address->ai_addr) && !config_.multicast_interface.empty() &&
       if_nametoindex(config_.multicast_interface.c_str()) == 0)
     return fail(now, "there is no interface " + config_.multicast_interface);
-  descriptor_ = socket(address->ai_family, hints.ai_socktype | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  descriptor_ = socket(address->ai_family, socket_type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (descriptor_ < 0) return fail(now, reason_of(errno));
   if (is_multicast(*address->ai_addr)) set_multicast(address->ai_family);
   moved_at_ = now;

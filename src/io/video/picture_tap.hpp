@@ -22,8 +22,8 @@ class PictureTap {
   /// Takes what leaves a parser: of several, the first. The tap must stay where it is for as long as the pad.
   void open_at(GstPad* parsed);
 
-  /// Of a picture that has become a frame; `running` is its running time. A frame may be known by two times:
-  /// that of its stamp and that of the telemetry in it.
+  /// Tells the taker which picture has become the frame: the one of that running time. A frame may be known
+  /// by two times: that of its stamp and that of the telemetry in it.
   void note(const VideoFrame& frame, std::optional<Duration> running) const;
 
  private:

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/sim/live/udp_vehicle.hpp"
 
-#include <netdb.h>
-
 #include <cstring>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
+#include "geoloc/io/address_lookup.hpp"
 #include "geoloc/sim/flight/random_stream.hpp"
 
 namespace geoloc::sim {
@@ -18,15 +16,8 @@ constexpr std::chrono::milliseconds kStep{2};
 
 io::UdpPeer resolve(const io::UdpEndpoint& endpoint) {
   if (endpoint.port == 0) throw std::invalid_argument("--udp: port 0 cannot be sent to");
-  addrinfo wanted{};
-  wanted.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  const int status =
-      getaddrinfo(endpoint.host.c_str(), std::to_string(endpoint.port).c_str(), &wanted, &found);
-  if (status != 0) {
-    throw std::runtime_error("--udp: " + endpoint.host + " is not a known host: " + gai_strerror(status));
-  }
-  const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> owner(found, freeaddrinfo);
+  const auto [found, fault] = io::look_up(endpoint.host, std::to_string(endpoint.port), SOCK_DGRAM);
+  if (!found) throw std::runtime_error("--udp: " + endpoint.host + " is not a known host: " + fault);
   io::UdpPeer peer;
   std::memcpy(&peer.address, found->ai_addr, found->ai_addrlen);
   peer.address_size = found->ai_addrlen;

@@ -43,15 +43,15 @@ class LiveObjects {
   void remove_others(std::uint64_t revision, bool only_confirmed);
   void clear();
 
-  /// nullptr for what is no confirmed object.
-  const ObjectReport* confirmed(std::uint64_t id) const;
-  /// Of a confirmed object; others have none.
-  void set_note(std::uint64_t id, const ObjectNote& note);
+  /// Returns the object; nullptr, and nothing is changed, for what is no confirmed one.
+  const ObjectReport* set_note(std::uint64_t id, const ObjectNote& note);
 
-  /// Pictures outlive the objects: a replay that begins again has them.
-  bool has_room_for_picture_of(std::uint64_t id) const;
-  void set_picture(std::uint64_t id, std::string jpeg);
-  void forget_picture(std::uint64_t id);
+  // Pictures outlive the objects: a replay that begins again has them.
+
+  /// False where there is no room for it.
+  bool set_picture(std::uint64_t id, std::string jpeg);
+  /// False where there was none.
+  bool forget_picture(std::uint64_t id);
   std::shared_ptr<const std::string> picture_of(std::uint64_t id) const;
 
   std::vector<ObjectReport> all_confirmed() const;
@@ -94,6 +94,7 @@ class LiveObjects {
 
   static void note_moment(Entry& entry, HostTime at);
   Entry* find_or_make(std::uint64_t id, std::uint64_t revision);
+  void show_picture_of(std::uint64_t id);
   void write_json(std::uint64_t id, Entry& entry);
   void note_removal(std::uint64_t id, std::uint64_t revision);
 
