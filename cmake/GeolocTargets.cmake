@@ -23,6 +23,8 @@ function(geoloc_set_flags target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON)
   # Indices are std::size_t, Eigen's are signed: clang, and clang-tidy, take -Wconversion to include that.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion)
+  # No object holds where its source lay: it is the same of every clone, for ccache and for those who build packages again.
+  target_compile_options(${target} PRIVATE "-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=")
   if(NOT CMAKE_UNITY_BUILD)  # in a unity build, names of one file hide those of another
     target_compile_options(${target} PRIVATE -Wshadow)
   endif()
@@ -97,9 +99,7 @@ function(geoloc_add_test name)
   set_source_files_properties("${PROJECT_SOURCE_DIR}/tests/support/allocation_counter.cpp"
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}/tests" "${PROJECT_SOURCE_DIR}/src")
-  target_compile_definitions(${target} PRIVATE
-    GEOLOC_TEST_DATA_DIR="${PROJECT_SOURCE_DIR}/tests/data" GEOLOC_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} GTest::gtest GTest::gtest_main)
+  target_link_libraries(${target} PRIVATE ${arg_LIBRARIES} source_tree GTest::gtest GTest::gtest_main)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()

@@ -7,6 +7,7 @@
 #include "geoloc/camera/camera.hpp"
 #include "support/number_lines.hpp"
 #include "support/opencv_lens.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc {
 namespace {
@@ -35,7 +36,7 @@ TEST(CameraAgainstOpenCvsNumbers, PixelsAndRaysAreThoseOfEachLens) {
   std::map<std::string, Miss> missed_pixels, missed_rays;
   std::optional<CameraModel> camera;
   std::string lens;
-  for (const auto& [word, name, n] : read_number_lines(GEOLOC_TEST_DATA_DIR "/camera/points.txt")) {
+  for (const auto& [word, name, n] : read_number_lines(test_data() / "camera/points.txt")) {
     if (word == "lens") {
       camera.emplace(intrinsics_of({word, name, n}));
       lens = name;

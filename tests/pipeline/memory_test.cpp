@@ -9,6 +9,7 @@
 #include <string>
 
 #include "geoloc/pipeline/geolocator.hpp"
+#include "support/source_tree.hpp"
 
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
 
@@ -49,7 +50,7 @@ TEST_F(Memory, FollowsTheMostTracksAndDetections) {
 }
 
 TEST_F(Memory, IsAsTheDocumentationSays) {
-  std::ifstream page(GEOLOC_SOURCE_DIR "/docs/library.md");
+  std::ifstream page(source_tree() / "docs/library.md");
   int rows = 0;
   for (std::string line; std::getline(page, line);) {
     const std::string mark = ", default";

@@ -8,6 +8,7 @@
 #include "projection/camera_pose.hpp"
 #include "support/number_lines.hpp"
 #include "support/opencv_lens.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc {
 namespace {
@@ -29,7 +30,7 @@ TEST(ProjectorAgainstOpenCvsNumbers, EachGroundPointAppearsWhereOpenCvShowsIt) {
   std::optional<Projector> projector, of_another_ground;
   Rigid3d enu_from_camera;
   int views = 0, points = 0;
-  for (const NumberLine& line : read_number_lines(GEOLOC_TEST_DATA_DIR "/camera/views.txt")) {
+  for (const NumberLine& line : read_number_lines(test_data() / "camera/views.txt")) {
     const std::vector<double>& n = line.numbers;
     if (line.word == "lens") {
       projector.emplace(config, intrinsics_of(line));

@@ -5,11 +5,12 @@
 #include <string>
 
 #include "geoloc/sim/flight/flight.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc::sim {
 
 inline std::filesystem::path flight_folder() {
-  return std::filesystem::path(GEOLOC_SOURCE_DIR) / "data/flights";
+  return source_tree() / "data/flights";
 }
 
 inline Flight load(const std::string& name) {

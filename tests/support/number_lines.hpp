@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cctype>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -28,11 +29,11 @@ inline NumberLine parse_number_line(const std::string& text) {
 }
 
 /// Throws std::runtime_error where the file cannot be read or is empty.
-inline std::vector<NumberLine> read_number_lines(const std::string& path) {
+inline std::vector<NumberLine> read_number_lines(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::vector<NumberLine> lines;
   for (std::string text; std::getline(file, text);) lines.push_back(parse_number_line(text));
-  if (lines.empty()) throw std::runtime_error("cannot be read: " + path);
+  if (lines.empty()) throw std::runtime_error("cannot be read: " + path.string());
   return lines;
 }
 

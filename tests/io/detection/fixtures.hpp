@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "geoloc/io/detection/yolo_detector.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc::io {
 
 /// A network of tools/fixtures/make_onnx_fixtures.py.
 inline std::filesystem::path fixture(const std::string& name) {
-  return std::filesystem::path{GEOLOC_TEST_DATA_DIR} / "onnx" / (name + ".onnx");
+  return test_data() / "onnx" / (name + ".onnx");
 }
 
 /// The back ends that were built in.

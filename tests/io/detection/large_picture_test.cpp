@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
@@ -10,6 +9,7 @@
 #include "geoloc/io/detection/yolo_detector.hpp"
 #include "geoloc/sim/world/camera_renderer.hpp"
 #include "geoloc/sim/world/visible_boxes.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -40,7 +40,7 @@ LargePicture make_large_picture() {
 }
 
 std::size_t found(const LargePicture& picture, const DetectionConfig& config) {
-  const auto model = std::filesystem::path{GEOLOC_SOURCE_DIR} / "data/models/fiducial.onnx";
+  const auto model = source_tree() / "data/models/fiducial.onnx";
   const auto detections = open_detector({model, {}}, config)->detect(picture.bgr);
   std::size_t matched = 0;
   for (const sim::VisibleBox& target : picture.targets) {

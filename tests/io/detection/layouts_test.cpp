@@ -11,6 +11,7 @@
 
 #include "fixtures.hpp"
 #include "io/detection/remedies.hpp"
+#include "support/source_tree.hpp"
 #include "support/temporary_folder.hpp"
 
 // The networks of tools/fixtures/make_onnx_fixtures.py list the same boxes in every layout: 12 x 6 px in the
@@ -142,7 +143,7 @@ TEST(Refusals, LeadToWhatWorks) {
 
 /// The quoted names in the program's sets of operators.
 std::set<std::string> operators_of_the_converter() {
-  std::ifstream stream{std::string{GEOLOC_SOURCE_DIR} + "/tools/onnx_for_opencv.py"};
+  std::ifstream stream{source_tree() / "tools/onnx_for_opencv.py"};
   const std::string program{std::istreambuf_iterator<char>{stream}, {}};
   std::istringstream sets{program.substr(program.find("BROADCASTING = {"))};
   std::set<std::string> names;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/detection/onnx_metadata.hpp"
+#include "support/source_tree.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +15,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes read(const std::string& name) {
-  std::ifstream stream{std::string{GEOLOC_TEST_DATA_DIR} + "/onnx/" + name, std::ios::binary};
+  std::ifstream stream{test_data() / "onnx" / name, std::ios::binary};
   return {std::istreambuf_iterator<char>{stream}, {}};
 }
 

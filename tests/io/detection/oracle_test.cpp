@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "geoloc/io/detection/yolo_detector.hpp"
+#include "support/source_tree.hpp"
 
 // The oracle is ONNX Runtime with a letterbox and a suppression written in numpy:
 // tools/fixtures/make_detection_fixture.py.
@@ -66,8 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Pictures, DefaultModel,
                          [](const auto& tested) { return tested.param.name; });
 
 TEST_P(DefaultModel, FindsWhatOnnxRuntimeFinds) {
-  const auto data = std::filesystem::path{GEOLOC_TEST_DATA_DIR} / "detection";
-  const auto model = std::filesystem::path{GEOLOC_SOURCE_DIR} / "data/models/fiducial.onnx";
+  const auto data = test_data() / "detection";
+  const auto model = source_tree() / "data/models/fiducial.onnx";
   const auto fixture = nlohmann::json::parse(std::ifstream{data / (GetParam().name + ".json")});
 
   DetectionConfig config;

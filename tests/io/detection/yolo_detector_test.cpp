@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "fixtures.hpp"
+#include "support/source_tree.hpp"
 #include "support/temporary_folder.hpp"
 
 // The networks are described in tools/fixtures/make_onnx_fixtures.py: what they find is known in closed form.
@@ -195,8 +196,8 @@ TEST(Backends, TakeExportsThatAreNotConverted) {
 
 TEST(Backends, GiveTheSameBoxesToATenthOfAPixel) {
   if (!has_openvino()) GTEST_SKIP() << "built without OpenVINO (scripts/openvino.sh)";
-  const auto model = std::filesystem::path{GEOLOC_SOURCE_DIR} / "data/models/fiducial.onnx";
-  const cv::Mat picture = cv::imread(std::string{GEOLOC_TEST_DATA_DIR} + "/detection/targets.jpg");
+  const auto model = source_tree() / "data/models/fiducial.onnx";
+  const cv::Mat picture = cv::imread(test_data() / "detection/targets.jpg");
   const auto by_opencv = open_detector({model, {}}, with(Backend::kOpencv))->detect(picture);
   const auto by_openvino = open_detector({model, {}}, with(Backend::kOpenvino))->detect(picture);
   ASSERT_GE(by_opencv.size(), 5U);

@@ -8,6 +8,7 @@
 
 #include "fuzz/hostile_pages.hpp"
 #include "page_frames.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -35,7 +36,7 @@ TEST_F(Site, ServesThePageAndItsFiles) {
 
 TEST_F(Site, FilesAreThoseOfTheSourceTree) {
   for (const char* name : {"index.html", "page.js", "map.js", "icon.svg"}) {
-    std::ifstream file(std::string(GEOLOC_SOURCE_DIR "/src/io/live_page/page/") + name, std::ios::binary);
+    std::ifstream file(source_tree() / "src/io/live_page/page" / name, std::ios::binary);
     const std::string content{std::istreambuf_iterator<char>(file), {}};
     EXPECT_EQ(get(std::string("/") + name).body, content) << name;
   }

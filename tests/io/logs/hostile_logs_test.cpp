@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
 #include <string>
 
+#include "support/source_tree.hpp"
 #include "support/spoilt_bytes.hpp"
 
 namespace geoloc::io {
@@ -17,7 +17,7 @@ namespace {
 using Reader = void (*)(std::string_view);
 
 std::string seed(const std::string& name) {
-  std::ifstream file(std::filesystem::path(GEOLOC_SOURCE_DIR) / "tests/fuzz/seeds" / name, std::ios::binary);
+  std::ifstream file(source_tree() / "tests/fuzz/seeds" / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

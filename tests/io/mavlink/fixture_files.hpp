@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "support/source_tree.hpp"
+
 namespace geoloc::io::testing {
 
 inline std::filesystem::path fixture(const std::string& name) {
-  return std::filesystem::path(GEOLOC_TEST_DATA_DIR) / "mavlink" / name;
+  return test_data() / "mavlink" / name;
 }
 
 /// Rows of comma-separated fields; a trailing empty field is kept.

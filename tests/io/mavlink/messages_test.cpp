@@ -3,14 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/io/mavlink/frame_parser.hpp"
 #include "geoloc/io/recording/tlog.hpp"
 #include "io/mavlink/fixture_files.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -162,7 +161,7 @@ TEST(Messages, QuaternionAndEulerAnglesOfOneInstantAgree) {
 
 /// Rates and velocities against differences of what they are the rates of: axes, signs and units.
 TEST(Messages, TellRatesThatAgreeWithWhatChanges) {
-  const Tlog log = read_tlog(std::filesystem::path(GEOLOC_SOURCE_DIR) / "data/flights/stock_path1.tlog");
+  const Tlog log = read_tlog(source_tree() / "data/flights/stock_path1.tlog");
   FrameParser parser;
   std::optional<AttitudeSample> attitude;
   std::optional<PositionSample> position;

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "support/source_tree.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace geoloc::io {
@@ -29,7 +30,7 @@ std::string encoded(const char* ending, const cv::Mat& picture) {
 }
 
 std::string fixture() {
-  std::ifstream stream{GEOLOC_TEST_DATA_DIR "/detection/targets.jpg", std::ios::binary};
+  std::ifstream stream{test_data() / "detection/targets.jpg", std::ios::binary};
   return {std::istreambuf_iterator<char>{stream}, {}};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fuzz/hostile_files.hpp"
+#include "support/source_tree.hpp"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -57,7 +57,7 @@ TEST(HostileFiles, Frames) {
 }
 
 TEST(HostileFiles, Telemetry) {
-  std::ifstream log(std::filesystem::path(GEOLOC_TEST_DATA_DIR) / "mavlink" / "wire.tlog", std::ios::binary);
+  std::ifstream log(test_data() / "mavlink" / "wire.tlog", std::ios::binary);
   std::string good{std::istreambuf_iterator<char>(log), std::istreambuf_iterator<char>()};
   ASSERT_FALSE(good.empty());
   good.resize(std::min<std::size_t>(good.size(), 1000));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "fuzz/hostile_video_telemetry.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc::io {
 namespace {
@@ -15,8 +16,7 @@ namespace {
 using namespace std::chrono_literals;
 
 std::string text_of(const std::string& name) {
-  std::ifstream file(std::string(GEOLOC_SOURCE_DIR) + "/tests/fuzz/seeds/video_telemetry/" + name,
-                     std::ios::binary);
+  std::ifstream file(source_tree() / "tests/fuzz/seeds/video_telemetry" / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
 
+#include "support/source_tree.hpp"
 #include "support/spoilt_bytes.hpp"
 
 namespace geoloc::io {
@@ -16,7 +16,7 @@ namespace {
 using Reader = void (*)(const std::string&);
 
 std::string bytes_of(const std::string& name) {
-  std::ifstream file(std::filesystem::path(GEOLOC_SOURCE_DIR) / "tests" / name, std::ios::binary);
+  std::ifstream file(source_tree() / "tests" / name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "geoloc/io/stills/picture_tags.hpp"
+#include "support/source_tree.hpp"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -47,7 +47,7 @@ TEST(Xmp, NestedAsDeepAsThereIsRoomEndsNothing) {
 }
 
 TEST(PictureTags, AreThoseThatWereWritten) {
-  std::ifstream file(std::filesystem::path(GEOLOC_TEST_DATA_DIR) / "stills" / "dji.jpg", std::ios::binary);
+  std::ifstream file(test_data() / "stills" / "dji.jpg", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   const PictureTags tags = parse_picture_tags(bytes);
   EXPECT_EQ(tags.width_px, 64);

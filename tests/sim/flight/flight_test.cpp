@@ -7,6 +7,7 @@
 
 #include "geoloc/sim/flight/mavlink_frame.hpp"
 #include "sim/flights_for_test.hpp"
+#include "support/source_tree.hpp"
 
 namespace geoloc::sim {
 namespace {
@@ -75,7 +76,7 @@ TEST(Flight, UnknownNameListsWhatThereIs) {
 }
 
 TEST(Flight, FolderIsFoundFromTheProgramOrSaidToBeMissing) {
-  const auto program = std::filesystem::path(GEOLOC_SOURCE_DIR) / "build/release/bin/geoloc_sim";
+  const auto program = source_tree() / "build/release/bin/geoloc_sim";
   EXPECT_TRUE(std::filesystem::equivalent(find_flights(std::nullopt, program), flight_folder()));
   EXPECT_TRUE(
       std::filesystem::equivalent(find_flights(flight_folder(), "/nowhere/bin/geoloc_sim"), flight_folder()));
