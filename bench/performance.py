@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""bench/performance.py BIN [frame|field|hours|live ...]: measures how long things take, and writes the tables of docs/performance.md anew.
+"""bench/performance.py BIN [frame|projection|field|hours|live ...]: measures how long things take, and writes the tables of docs/performance.md anew.
 
 BIN: the folder of programs of a build with benchmarks (cmake --preset release). Without names it measures all, which takes ten
 minutes of a quiet computer. Frames are timed by the processor's clock, so that other work does not count, but for what it
@@ -34,20 +34,31 @@ def computer():
     return platform.processor() or platform.machine()
 
 
-def frame(binaries):
-    """Medians of the processor's time of nine interleaved runs."""
+def tracking_times_us(binaries, which):
+    """{benchmark: the median of the processor's time of nine interleaved runs}."""
     report = json.loads(output_of(
         binaries / "tracking_bench", "--benchmark_format=json", "--benchmark_repetitions=9",
-        "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=true",
-        "--benchmark_filter=process_frame/.*detections:(30/tracks:30|100/tracks:100)$"))
+        "--benchmark_enable_random_interleaving=true", "--benchmark_report_aggregates_only=true", f"--benchmark_filter={which}"))
     scale = {"ns": 1e-3, "us": 1.0, "ms": 1e3}
-    times_us = {one["run_name"].split("/repeats")[0]: one["cpu_time"] * scale[one["time_unit"]]
-                for one in report["benchmarks"] if one["aggregate_name"] == "median"}
+    return {one["run_name"].split("/repeats")[0]: one["cpu_time"] * scale[one["time_unit"]]
+            for one in report["benchmarks"] if one["aggregate_name"] == "median"}
+
+
+def frame(binaries):
+    times_us = tracking_times_us(binaries, "process_frame/.*detections:(30/tracks:30|100/tracks:100)$")
     yield "| detections x tracks in view | `paper` | `joint` | ratio |"
     yield "|---|---|---|---|"
     for size in (30, 100):
         paper, joint = (times_us[f"process_frame/{method}/detections:{size}/tracks:{size}"] for method in ("paper", "joint"))
         yield f"| {size} x {size} | {paper:.1f} µs | {joint:.0f} µs | {joint / paper:.1f} |"
+
+
+def projection(binaries):
+    times_us = tracking_times_us(binaries, "projection")
+    yield "| 1000 pixels of a lens with distortion, with covariance | a pixel |"
+    yield "|---|---|"
+    for at_once, how in enumerate(("one by one", "a frame's at once")):
+        yield f"| {how} | {times_us[f'projection/at_once:{at_once}']:.0f} ns |"
 
 
 def numbers_of(pattern, text):
@@ -79,7 +90,7 @@ def live(binaries):
     yield output_of(sys.executable, ROOT / "bench" / "latency" / "live.py", binaries).rstrip()
 
 
-PARTS = {"frame": frame, "field": field, "hours": hours, "live": live}
+PARTS = {"frame": frame, "projection": projection, "field": field, "hours": hours, "live": live}
 
 
 def main():

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The estimator's time per frame: the whole of process(), the assignment alone, and the state buffer.
+// The estimator's time per frame: the whole of process(), the projection and the assignment alone, and the
+// state buffer.
 #include <benchmark/benchmark.h>
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
 #include <random>
+#include <vector>
 
 #include "geoloc/pipeline/geolocator.hpp"
+#include "geoloc/projection/projector.hpp"
 #include "geoloc/state/state_buffer.hpp"
 #include "geoloc/tracking/assignment.hpp"
 
@@ -81,6 +85,33 @@ BENCHMARK_CAPTURE(process_frame, joint, Method::kJoint)
     ->Args({30, 30})
     ->Args({100, 100})
     ->ArgNames({"detections", "tracks"});
+
+/// Pixels of a lens with distortion, seen from 20 m, to the ground, with what a pixel's noise makes there.
+void projection(benchmark::State& state) {
+  const bool at_once = state.range(0) > 0;
+  CameraIntrinsics lens;
+  lens.distortion = {-0.2, 0.05, 0.001, -0.001, 0.01};
+  const Projector projector(ProjectorConfig{}, lens);
+  const Rigid3d enu_from_camera{Eigen::Quaterniond(0.02, 1.0, 0.03, 0.01).normalized(), {0.0, 0.0, 20.0}};
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::vector<Eigen::Vector2d> pixels;
+  for (int i = 0; i < 1000; ++i) pixels.emplace_back(1280.0 * share(random), 720.0 * share(random));
+  std::vector<Expected<GroundFix, NoFix>> fixes;
+  for (auto _ : state) {
+    fixes.clear();
+    if (at_once) {
+      projector.project(pixels, enu_from_camera, fixes);
+    } else {
+      for (const Eigen::Vector2d& pixel : pixels) fixes.push_back(projector.project(pixel, enu_from_camera));
+    }
+    Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
+    for (const auto& fix : fixes) sum += fix->covariance(1.0);
+    benchmark::DoNotOptimize(sum);
+  }
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pixels.size()));
+}
+BENCHMARK(projection)->Arg(0)->Arg(1)->ArgName("at_once");
 
 void assignment(benchmark::State& state) {
   std::mt19937 random(1);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "camera/camera_fields.hpp"
+#include "camera/distortion.hpp"
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/attitude.hpp"
 #include "geoloc/geometry/refuse.hpp"
@@ -14,31 +15,17 @@
 namespace geoloc {
 namespace {
 
-using Coefficients = std::array<double, 5>;
+using Coefficients = DistortionCoefficients;
 
-struct Distorted {
-  Eigen::Vector2d point;
+Eigen::Matrix2d jacobian_of(const Distorted<double>& there) {
   Eigen::Matrix2d jacobian;
-};
-
-/// OpenCV's model and its derivative, in normalized coordinates.
-Distorted distort(const Eigen::Vector2d& undistorted, const Coefficients& coefficients) {
-  const auto [k1, k2, p1, p2, k3] = coefficients;
-  const double x = undistorted.x(), y = undistorted.y();
-  const double r2 = x * x + y * y;
-  const double radial = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const double radial_slope = k1 + r2 * (2.0 * k2 + r2 * 3.0 * k3);  // d radial / d r2
-  Distorted result;
-  result.point = {x * radial + 2.0 * p1 * x * y + p2 * (r2 + 2.0 * x * x),
-                  y * radial + p1 * (r2 + 2.0 * y * y) + 2.0 * p2 * x * y};
-  const double cross = 2.0 * x * y * radial_slope + 2.0 * p1 * x + 2.0 * p2 * y;
-  result.jacobian << radial + 2.0 * x * x * radial_slope + 2.0 * p1 * y + 6.0 * p2 * x, cross,  //
-      cross, radial + 2.0 * y * y * radial_slope + 6.0 * p1 * y + 2.0 * p2 * x;
-  return result;
+  jacobian << there.x_by_x, there.x_by_y,  //
+      there.x_by_y, there.y_by_y;
+  return jacobian;
 }
 
 bool is_invertible(const Eigen::Matrix2d& jacobian) {
-  return std::abs(jacobian.determinant()) > 1e-9;
+  return std::abs(jacobian.determinant()) > Undistortion::kLeastDeterminant;
 }
 
 /// Takes a ray whose Jacobian is by the distorted coordinates.
@@ -52,18 +39,17 @@ ImageRay by_pixel(ImageRay ray, const CameraIntrinsics& intrinsics) {
 /// Jacobian is that of undistorted by distorted coordinates.
 std::optional<ImageRay> undistort(const Eigen::Vector2d& distorted, const Coefficients& coefficients,
                                   double max_radius_squared) {
-  constexpr int kMaxSteps = 20;
-  constexpr double kTolerance = 1e-12;
   Eigen::Vector2d estimate = distorted;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const Distorted there = distort(estimate, coefficients);
-    const Eigen::Vector2d residual = distorted - there.point;
-    if (residual.cwiseAbs().maxCoeff() < kTolerance) {
+  for (int step = 0; step < Undistortion::kMaxSteps; ++step) {
+    const Distorted<double> there = distort(estimate.x(), estimate.y(), coefficients);
+    const Eigen::Matrix2d jacobian = jacobian_of(there);
+    const Eigen::Vector2d residual = distorted - Eigen::Vector2d(there.x, there.y);
+    if (residual.cwiseAbs().maxCoeff() < Undistortion::kTolerance) {
       if (!(estimate.squaredNorm() <= max_radius_squared)) return std::nullopt;
-      return ImageRay{estimate, there.jacobian.inverse()};
+      return ImageRay{estimate, jacobian.inverse()};
     }
-    if (!is_invertible(there.jacobian)) return std::nullopt;
-    estimate += there.jacobian.inverse() * residual;
+    if (!is_invertible(jacobian)) return std::nullopt;
+    estimate += jacobian.inverse() * residual;
   }
   return std::nullopt;
 }
@@ -168,7 +154,7 @@ std::optional<ImageRay> CameraModel::ray(const Eigen::Vector2d& pixel) const {
 std::optional<ImageRay> CameraModel::ray_to(const Eigen::Vector3d& point_in_camera) const {
   const auto there = normalized(point_in_camera);
   if (!there) return std::nullopt;
-  const Eigen::Matrix2d jacobian = distort(*there, intrinsics_.distortion).jacobian;
+  const Eigen::Matrix2d jacobian = jacobian_of(distort(there->x(), there->y(), intrinsics_.distortion));
   if (!is_invertible(jacobian)) return std::nullopt;
   return by_pixel({*there, jacobian.inverse()}, intrinsics_);
 }
@@ -184,9 +170,9 @@ std::optional<Eigen::Vector2d> CameraModel::normalized(const Eigen::Vector3d& po
 std::optional<Eigen::Vector2d> CameraModel::pixel(const Eigen::Vector3d& point_in_camera) const {
   const auto there = normalized(point_in_camera);
   if (!there) return std::nullopt;
-  const Eigen::Vector2d distorted = distort(*there, intrinsics_.distortion).point;
-  return Eigen::Vector2d{intrinsics_.fx_px * distorted.x() + intrinsics_.cx_px,
-                         intrinsics_.fy_px * distorted.y() + intrinsics_.cy_px};
+  const Distorted<double> distorted = distort(there->x(), there->y(), intrinsics_.distortion);
+  return Eigen::Vector2d{intrinsics_.fx_px * distorted.x + intrinsics_.cx_px,
+                         intrinsics_.fy_px * distorted.y + intrinsics_.cy_px};
 }
 
 bool CameraModel::contains(const Eigen::Vector2d& pixel, double margin_px) const {

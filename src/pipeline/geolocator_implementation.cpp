@@ -7,6 +7,7 @@
 #include "camera/camera_fields.hpp"
 #include "geoloc/geometry/refuse.hpp"
 #include "geometry/room.hpp"
+#include "projection/frame_projector.hpp"
 #include "tracking/joint_tracker.hpp"
 #include "tracking/paper_tracker.hpp"
 
@@ -278,16 +279,17 @@ void Geolocator::Implementation::locate(const std::vector<Detection>& detections
                                         std::vector<LocatedDetection>& found,
                                         decltype(Counters::no_fix)& no_fix) const {
   found.clear();
-  for (const Detection& detection : detections) {
-    const auto fix = config.method == Method::kJoint
-                         ? projector.project(detection.box.centre(), from)
-                         : projector.project(detection.box.centre(), from, ground);
+  const auto take = [&](std::size_t i, const Expected<GroundFix, NoFix>& fix) {
     if (fix) {
-      found.push_back({detection, *fix});
+      found.push_back({detections[i], *fix});
     } else {
       ++no_fix[static_cast<std::size_t>(fix.error())];
     }
-  }
+  };
+  const auto pixel_of = [&](std::size_t i) { return detections[i].box.centre(); };
+  if (config.method == Method::kJoint || ground.is_level())
+    return FrameProjector(projector, from).project(detections.size(), pixel_of, take);
+  for (std::size_t i = 0; i < detections.size(); ++i) take(i, projector.project(pixel_of(i), from, ground));
 }
 
 }  // namespace geoloc

@@ -6,6 +6,7 @@
 #include "geoloc/geometry/angles.hpp"
 #include "geoloc/geometry/ray_plane.hpp"
 #include "geoloc/geometry/refuse.hpp"
+#include "projection/frame_projector.hpp"
 #include "projection/projector_fields.hpp"
 #include "settings/field_checker.hpp"
 
@@ -68,14 +69,17 @@ Expected<Projector::PixelRay, NoFix> Projector::ray_of(const Eigen::Vector2d& pi
 }
 
 Expected<double, NoFix> Projector::range_of_plane(const Ray<double>& ray) const {
-  const Plane<double> ground{Eigen::Vector3d::UnitZ(), config_.ground_height_above_home_m};
-  if (!(ray.origin.z() - ground.offset_m > 0.0)) return NoFix::kBelowGround;
-  if (!(ray.direction.z() < 0.0)) return NoFix::kAboveHorizon;
-  if (!(-ray.direction.z() >= min_depression_sine_)) return NoFix::kTooGrazing;
-  const auto range_m = intersect(ray, ground);
-  if (!range_m) return NoFix::kAboveHorizon;
-  if (!(*range_m <= config_.max_range_m)) return NoFix::kTooFar;
-  return *range_m;
+  const double range_m = (config_.ground_height_above_home_m - ray.origin.z()) / ray.direction.z();
+  if (const auto none = why_none(ray.origin.z(), ray.direction.z(), range_m)) return *none;
+  return range_m;
+}
+
+std::optional<NoFix> Projector::why_none(double camera_up_m, double direction_up, double range_m) const {
+  if (!(camera_up_m - config_.ground_height_above_home_m > 0.0)) return NoFix::kBelowGround;
+  if (!(direction_up < 0.0)) return NoFix::kAboveHorizon;
+  if (!(-direction_up >= min_depression_sine_)) return NoFix::kTooGrazing;
+  if (!(range_m <= config_.max_range_m)) return NoFix::kTooFar;
+  return std::nullopt;
 }
 
 Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel,
@@ -119,7 +123,10 @@ Expected<GroundFix, NoFix> Projector::project(const Eigen::Vector2d& pixel, cons
 void Projector::project(const std::vector<Eigen::Vector2d>& pixels, const Rigid3d& enu_from_camera,
                         std::vector<Expected<GroundFix, NoFix>>& fixes) const {
   fixes.clear();
-  for (const Eigen::Vector2d& pixel : pixels) fixes.push_back(project(pixel, enu_from_camera));
+  FrameProjector(*this, enu_from_camera)
+      .project(
+          pixels.size(), [&](std::size_t i) { return pixels[i]; },
+          [&](std::size_t /*i*/, const Expected<GroundFix, NoFix>& fix) { fixes.push_back(fix); });
 }
 
 std::optional<Eigen::Vector2d> Projector::reproject(const Eigen::Vector2d& position_in_enu,
@@ -159,7 +166,7 @@ bool Projector::sees(const Eigen::Vector2d& position_in_enu, const Rigid3d& enu_
 /// A copy is made only where the camera zooms, or is known to be longer.
 template <typename Ask>
 auto Projector::zoomed_as(const FrameView& view, const Ask& ask) const {
-  if (!view.focal_px && view.focal_ratio == 1.0) return ask(*this);
+  if (!is_zoomed(view)) return ask(*this);
   Projector zoomed = *this;
   zoomed.camera_ = camera_.with_focal_length(focal_px(view));
   return ask(zoomed);

@@ -100,14 +100,21 @@ TEST_P(ProjectorLaws, BatchIsTheSingleCallRepeated) {
   const Rigid3d enu_from_camera = pose_of(GetParam());
   std::vector<Eigen::Vector2d> pixels;
   for (double v = -100; v < 800; v += 37) pixels.emplace_back(1.3 * v, v);
+  pixels.insert(pixels.end(), {{std::nan(""), 3.0}, {3.0, INFINITY}, {1e4, -1e4}, {-1e300, 0.0}});
   std::vector<Expected<GroundFix, NoFix>> fixes;
   projector.project(pixels, enu_from_camera, fixes);
   ASSERT_EQ(fixes.size(), pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const auto single = projector.project(pixels[i], enu_from_camera);
     ASSERT_EQ(fixes[i].has_value(), single.has_value());
-    if (!single) continue;
+    if (!single) {
+      EXPECT_EQ(fixes[i].error(), single.error()) << pixels[i].transpose();
+      continue;
+    }
     EXPECT_EQ(fixes[i]->position_in_enu, single->position_in_enu);
+    EXPECT_EQ(fixes[i]->ground_from_pixel, single->ground_from_pixel);
+    EXPECT_EQ(fixes[i]->direction_in_enu, single->direction_in_enu);
+    EXPECT_EQ(fixes[i]->range_m, single->range_m);
   }
 }
 

@@ -112,12 +112,14 @@ class CameraModel {
 
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 
+  /// Of normalized undistorted coordinates: the distortion is monotonic up to here.
+  double max_radius_squared() const { return max_radius_squared_; }
+
  private:
   std::optional<Eigen::Vector2d> normalized(const Eigen::Vector3d& point_in_camera) const;
 
   CameraIntrinsics intrinsics_;
-  double
-      max_radius_squared_;  // of normalized undistorted coordinates: the distortion is monotonic up to here
+  double max_radius_squared_;
 };
 
 }  // namespace geoloc

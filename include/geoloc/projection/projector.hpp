@@ -72,11 +72,15 @@ class Projector {
     return of.focal_ratio * of.focal_px.value_or(Eigen::Vector2d(camera.fx_px, camera.fy_px));
   }
 
+  /// Whether that may be another than the calibration's.
+  static bool is_zoomed(const FrameView& view) { return view.focal_px || view.focal_ratio != 1.0; }
+
   /// With the calibration's focal length; what else it tells holds for every frame.
   const CameraModel& camera() const { return camera_; }
   const ProjectorConfig& config() const { return config_; }
 
  private:
+  friend class FrameProjector;  // the same for several pixels at once
   struct PixelRay;
 
   /// What `ask` gets of the projector whose camera has the view's focal length.
@@ -84,6 +88,8 @@ class Projector {
   auto zoomed_as(const FrameView& view, const Ask& ask) const;
   Expected<PixelRay, NoFix> ray_of(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera) const;
   Expected<double, NoFix> range_of_plane(const Ray<double>& ray) const;
+  /// Of a ray from that height that meets the plane at that range.
+  std::optional<NoFix> why_none(double camera_up_m, double direction_up, double range_m) const;
 
   ProjectorConfig config_;
   CameraModel camera_;
