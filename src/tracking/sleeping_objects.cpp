@@ -15,8 +15,10 @@ namespace {
 constexpr double kCell_m = 20.0;
 /// All are visited before so many nodes were made: a quarter of what the drift remembers.
 constexpr double kNodesPerTurn = NodeHistory::kRemembered / 4.0;
-/// Of nodes and spells per object.
-constexpr std::size_t kUsualTerms = 4;
+/// Room for the terms of so many objects, where some have more than one pass gives them.
+std::size_t room_for_terms(std::size_t objects) {
+  return objects + objects / 2;
+}
 
 }  // namespace
 
@@ -29,35 +31,37 @@ std::size_t SleepingObjects::take_room(SleepingObjects* self, const DriftConfig&
                                        std::size_t at_first) {
   return SettledSums::take_room(nullptr, drift) + PlaceIndex::take_room(nullptr, at_first) +
          decltype(sleepers_)::take_room(room::part(self, &SleepingObjects::sleepers_), at_first) +
-         decltype(terms_)::take_room(room::part(self, &SleepingObjects::terms_), kUsualTerms * at_first) +
+         decltype(terms_)::take_room(room::part(self, &SleepingObjects::terms_), room_for_terms(at_first)) +
          room::reserve(self, &SleepingObjects::near_, at_first + at_first / 2);
 }
 
 void SleepingObjects::reserve(std::size_t count) {
   sleepers_.reserve(count);
-  terms_.reserve(kUsualTerms * count);
+  terms_.reserve(room_for_terms(count));
   index_.reserve(count);
   if (near_.capacity() < count) near_.reserve(count + count / 2);
 }
 
-void SleepingObjects::add_term(Sleeper& sleeper, std::uint32_t number, bool is_spell,
-                               const Landmark::NodeRows& B) {
-  const Key key = terms_.take();
-  terms_[key] = {number, is_spell, sleeper.first_term, B};
-  sleeper.first_term = key;
-  sleeper.has_spells = sleeper.has_spells || is_spell;
-}
-
 void SleepingObjects::drop_terms(Sleeper& sleeper) {
-  for (Key term = sleeper.first_term; term != kNone; term = terms_[term].next) terms_.give_back(term);
-  sleeper.first_term = kNone;
-  sleeper.has_spells = false;
+  for (Key terms = sleeper.first_terms; terms != kNone; terms = terms_[terms].next) terms_.give_back(terms);
+  sleeper.first_terms = kNone;
 }
 
 void SleepingObjects::keep_terms(Sleeper& sleeper, const Landmark& landmark, const DriftTimeline& drift) {
-  for (const Landmark::NodeTerms& terms : landmark)
-    add_term(sleeper, drift.node(terms.number).serial, false, terms.B);
-  for (const Landmark::SpellTerms& terms : landmark.spells()) add_term(sleeper, terms.number, true, terms.B);
+  Key* end = &sleeper.first_terms;
+  Terms* last = nullptr;
+  const auto keep = [&](std::uint32_t number, bool is_spell, const Landmark::NodeRows& B) {
+    if (last == nullptr || last->count == Terms::kMost) {
+      *end = terms_.take();
+      last = &terms_[*end];
+      last->count = 0;
+      last->next = kNone;
+      end = &last->next;
+    }
+    last->terms[last->count++] = {number, is_spell, B};
+  };
+  for (const Landmark::NodeTerms& terms : landmark) keep(drift.node(terms.number).serial, false, terms.B);
+  for (const Landmark::SpellTerms& terms : landmark.spells()) keep(terms.number, true, terms.B);
 }
 
 void SleepingObjects::put(const RestingObject& object, const DriftTimeline& drift) {
@@ -73,7 +77,6 @@ void SleepingObjects::put(const RestingObject& object, const DriftTimeline& drif
              object.sums_since,
              object.size_m,
              object.was_confirmed,
-             false,
              object.mixture,
              object.ground,
              object.pixel_information,
@@ -97,8 +100,7 @@ void SleepingObjects::restore(const Sleeper& sleeper, DriftTimeline& drift, Land
   landmark.restore(sleeper.A, sleeper.b, sleeper.B);
   const SwayTimeline& sway = drift.sway();
   PointInformation known;  // of which only the vector changes
-  for (Key key = sleeper.first_term; key != kNone; key = terms_[key].next) {
-    const Term& term = terms_[key];
+  const auto restore_term = [&](const Term& term) {
     if (!term.is_spell) {
       const NodeHistory::Blend blend = drift.resolve(term.number);
       for (const NodeHistory::Share& share : blend.shares) {
@@ -113,6 +115,10 @@ void SleepingObjects::restore(const Sleeper& sleeper, DriftTimeline& drift, Land
     } else {
       landmark.restore_spell(term.number, sway.spell(term.number).node, term.B, drift);
     }
+  };
+  for (Key key = sleeper.first_terms; key != kNone; key = terms_[key].next) {
+    const Terms& terms = terms_[key];
+    std::for_each_n(terms.terms.begin(), terms.count, restore_term);
   }
   landmark.add_prior(known);
 }

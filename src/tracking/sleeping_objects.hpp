@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -96,8 +97,15 @@ class SleepingObjects {
   struct Term {
     std::uint32_t number = 0;
     bool is_spell = false;
-    Key next = kNone;
     Landmark::NodeRows B;
+  };
+
+  /// Some of an object's terms. They lie together, since what is slow is to fetch them from memory.
+  struct Terms {
+    static constexpr std::size_t kMost = 3;
+    std::array<Term, kMost> terms;
+    std::size_t count = 0;
+    Key next = kNone;
   };
 
   struct Sleeper {
@@ -109,7 +117,6 @@ class SleepingObjects {
     VehicleTime sums_since{};
     double size_m = 0.0;
     bool was_confirmed = false;
-    bool has_spells = false;
     Mixture mixture;
     PointInformation ground;
     PointMatrix pixel_information;
@@ -117,10 +124,9 @@ class SleepingObjects {
     Point b;
     Landmark::CalibrationRows B;
     Eigen::Vector2d position_in_enu;
-    Key first_term = kNone;
+    Key first_terms = kNone;
   };
 
-  void add_term(Sleeper& sleeper, std::uint32_t number, bool is_spell, const Landmark::NodeRows& B);
   void drop_terms(Sleeper& sleeper);
   void forget(Key key);
   void restore(const Sleeper& sleeper, DriftTimeline& drift, Landmark& landmark) const;
@@ -131,7 +137,7 @@ class SleepingObjects {
 
   SettledSums settled_;
   BlockPool<Sleeper> sleepers_;
-  BlockPool<Term, 1024> terms_;
+  BlockPool<Terms> terms_;
   PlaceIndex index_;
   Key turn_ = 0;       // was visited last
   double owed_ = 0.0;  // visits; below 0: some were made ahead
