@@ -3,6 +3,7 @@ set(_pages "${PROJECT_SOURCE_DIR}/packaging/pages")
 set(_pages_made "${PROJECT_BINARY_DIR}/share/man/man1/geoloc_app.1.gz")
 add_custom_command(OUTPUT "${_pages_made}"
   COMMAND "${Python3_EXECUTABLE}" -B "${_pages}/make_pages.py" "${PROJECT_VERSION}" "${PROJECT_BINARY_DIR}/share" ${_program_files}
+    --emulator ${CMAKE_CROSSCOMPILING_EMULATOR}
   DEPENDS
     "${_pages}/completions.py" "${_pages}/make_pages.py" "${_pages}/man_page.py" "${_pages}/program_help.py" ${_programs}
   VERBATIM)

@@ -38,6 +38,7 @@ for what in "$@"; do
     arm64)
       on_bare_machine arm64 'exec 1>&2; bash scripts/cross_arm64.sh'
       on_bare_machine wheel_arm64 'exec 1>&2; bash scripts/wheel_arm64.sh'
+      on_bare_machine programs_arm64 'exec 1>&2; bash scripts/programs_arm64.sh'
       ;;
     *) sed -n '3,5s/^# //p' "$0" >&2; exit 2 ;;
   esac

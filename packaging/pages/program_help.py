@@ -100,10 +100,10 @@ def parse(name, text):
     return parsed
 
 
-def help_of(program, name):
-    """Of the program at that path, and of its commands."""
+def help_of(command, name):
+    """Of the program that the command runs, and of its own commands."""
     def said(*arguments):
-        return subprocess.run([program, *arguments, "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
+        return subprocess.run([*command, *arguments, "--help"], stdout=subprocess.PIPE, text=True, check=True).stdout
 
     parsed = parse(name, said())
     parsed.commands = {command: parse(command, said(command)) for command in parsed.commands}
