@@ -46,8 +46,9 @@ say "The same by the package's programs on Arm"
 dpkg -x "$package" "$work/installed"
 on_arm64() { qemu-aarch64-static "$work/installed/usr/bin/$1" "${@:2}"; }
 for program in "$work"/installed/usr/bin/*; do
-  file "$program" | grep -q 'ARM aarch64'
-  on_arm64 "$(basename "$program")" --help | grep -q 'Usage: '
+  [[ $(file "$program") == *'ARM aarch64'* ]]
+  on_arm64 "$(basename "$program")" --help >"$work/help.txt"
+  grep -q 'Usage: ' "$work/help.txt"
 done
 on_arm64 geoloc_replay "$work/recording" --csv "$work/arm64.csv" >/dev/null
 on_arm64 geoloc_detect "$picture" --json - >"$work/arm64_boxes.txt"
