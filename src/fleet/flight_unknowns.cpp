@@ -50,6 +50,7 @@ Eigen::Index FlightUnknowns::append(const FlightState::Unknown& unknown) {
   const auto place = static_cast<Eigen::Index>(units_.size());
   references_.push_back(unknown.mean);
   units_.push_back(unknown.prior_sigma);
+  priors_.emplace_back();
   information_.conservativeResize(place + 1, place + 1);
   information_.row(place).setZero();
   information_.col(place).setZero();
@@ -58,14 +59,15 @@ Eigen::Index FlightUnknowns::append(const FlightState::Unknown& unknown) {
   return place;
 }
 
-/// What all parts began with counts for the first of them alone.
-void FlightUnknowns::divide_by_prior(Eigen::Index place, const FlightState::Unknown& unknown) {
+/// A Gaussian of the unknown, as often as `power` says: -1 divides by it.
+void FlightUnknowns::multiply_by_prior(Eigen::Index place, const FlightState::Unknown& unknown,
+                                       double power) {
   const auto i = static_cast<std::size_t>(place);
   const double mean = (unknown.prior_mean - references_[i]) / units_[i];
   const double information = std::pow(units_[i] / unknown.prior_sigma, 2);
-  information_(place, place) -= information;
-  vector_[place] -= information * mean;
-  log_scale_ += 0.5 * (information * mean * mean + kLog2Pi - std::log(information));
+  information_(place, place) += power * information;
+  vector_[place] += power * information * mean;
+  log_scale_ -= 0.5 * power * (information * mean * mean + kLog2Pi - std::log(information));
 }
 
 /// The drift is what it was at the end of the part before, as far as it is correlated: p(b | a) / p(b).
@@ -83,7 +85,7 @@ void FlightUnknowns::continue_drift(const FlightSummary& before, const FlightSum
     const auto drift = std::find_if(state.unknowns.begin(), state.unknowns.end(), [&](const auto& unknown) {
       return static_cast<int>(unknown.which) == static_cast<int>(FlightUnknown::kFirstDriftEast) + component;
     });
-    divide_by_prior(*first, *drift);
+    multiply_by_prior(*first, *drift, -1.0);
     // Both count from their means; before the flight they are zero, with the same variance.
     const double kept = correlation(state.drift, component, apart_s);
     const double innovation = std::max(1.0 - kept * kept, kLeastInnovation);
@@ -129,8 +131,12 @@ void FlightUnknowns::add(const FlightSummary& summary, const FlightModel& model)
     const Entry& entry = entries[row];
     const bool is_shared = entry.is_constant && constants_[entry.kind];
     const Eigen::Index place = is_shared ? *constants_[entry.kind] : append(entry.unknown);
-    if (is_shared) divide_by_prior(place, entry.unknown);
-    if (entry.is_constant) constants_[entry.kind] = place;
+    if (entry.is_constant) {
+      multiply_by_prior(place, entry.unknown, -1.0);
+      std::optional<FlightState::Unknown>& widest = priors_[static_cast<std::size_t>(place)];
+      if (!widest || widest->prior_sigma < entry.unknown.prior_sigma) widest = entry.unknown;
+      constants_[entry.kind] = place;
+    }
     places[entry.kind] = place;
     part.places.push_back(place);
     const auto i = static_cast<std::size_t>(place);
@@ -148,7 +154,12 @@ void FlightUnknowns::add(const FlightSummary& summary, const FlightModel& model)
   before_ = &summary;
 }
 
-std::optional<FlightUnknowns::Solution> FlightUnknowns::solve() const {
+/// What all parts began with counts once: as the part believed that knew least.
+std::optional<FlightUnknowns::Solution> FlightUnknowns::solve() {
+  for (std::size_t i = 0; i < priors_.size(); ++i) {
+    if (priors_[i]) multiply_by_prior(static_cast<Eigen::Index>(i), *priors_[i], 1.0);
+    priors_[i].reset();
+  }
   const Eigen::LLT<Eigen::MatrixXd> root(information_);
   if (root.info() != Eigen::Success || !information_.allFinite()) return std::nullopt;
   const Eigen::Index size = vector_.size();

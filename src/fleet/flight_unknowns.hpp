@@ -37,8 +37,8 @@ class FlightUnknowns {
 
   const std::vector<OfPart>& parts() const { return parts_; }
 
-  /// nullopt where the parts leave no solution.
-  std::optional<Solution> solve() const;
+  /// Of all parts. nullopt where they leave no solution.
+  std::optional<Solution> solve();
 
  private:
   static constexpr std::size_t kHome = kFlightUnknowns, kKinds = kFlightUnknowns + 1;
@@ -51,12 +51,13 @@ class FlightUnknowns {
   };
 
   Eigen::Index append(const FlightState::Unknown& unknown);
-  void divide_by_prior(Eigen::Index place, const FlightState::Unknown& unknown);
+  void multiply_by_prior(Eigen::Index place, const FlightState::Unknown& unknown, double power);
   void continue_drift(const FlightSummary& before, const FlightSummary& summary, const Places& places);
   void add_information(const OfPart& part);
 
   std::vector<OfPart> parts_;
   std::vector<double> references_, units_;
+  std::vector<std::optional<FlightState::Unknown>> priors_;  // of the constants: the widest, not yet counted
   Places constants_;
   Places last_;  // of the part before
   const FlightSummary* before_ = nullptr;
