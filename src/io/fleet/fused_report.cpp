@@ -35,6 +35,18 @@ std::vector<std::string> names_of_parts(const FusedMap& map, const FusedFlight& 
   return names;
 }
 
+/// Which others a flight is one with; empty: none.
+std::string words_of_parts(const FusedMap& map, const FusedFlight& flight) {
+  if (flight.parts.empty()) return "";
+  return fmt::format("one flight with its other parts: {}", fmt::join(names_of_parts(map, flight), ", "));
+}
+
+/// All that a person is to be told of what became of a flight.
+std::string words_of(const FusedMap& map, const FusedFlight& flight) {
+  const std::string parts = words_of_parts(map, flight);
+  return flight.reason + (flight.reason.empty() || parts.empty() ? "" : "; ") + parts;
+}
+
 ordered_json flight_to_json(const FusedMap& map, const FusedFlight& flight) {
   ordered_json told{{"flight", flight.identity.flight},
                     {"vehicle", flight.identity.vehicle},
@@ -98,7 +110,7 @@ std::vector<FlightReport> report_flights(const FusedMap& map, const Fleet& fleet
                         flight.identity.vehicle,
                         flight.identity.sequence,
                         word_of(flight.verdict),
-                        flight.reason,
+                        words_of(map, flight),
                         flight.common_error_m,
                         flight.sigma_m,
                         flight.chi2,
@@ -142,10 +154,7 @@ std::string flights_to_table(const FusedMap& map) {
                    flight.identity.flight, width, word_of(flight.verdict), flight.objects,
                    flight.shared_objects, with_sigma(error.x(), sigma.x()), with_sigma(error.y(), sigma.y()),
                    with_sigma(error.z(), sigma.z()), flight.chi2);
-    if (!flight.reason.empty()) table += "    " + flight.reason + "\n";
-    if (!flight.parts.empty())
-      table += fmt::format("    one flight with its other parts: {}\n",
-                           fmt::join(names_of_parts(map, flight), ", "));
+    if (const std::string words = words_of(map, flight); !words.empty()) table += "    " + words + "\n";
   }
   return table;
 }
