@@ -135,7 +135,7 @@ FlightSummary summary_from_bytes(std::string_view bytes, const std::string& name
     refuse_summary(name, "is not as long as its counts say: it was cut off or damaged");
   if (summary_checksum(bytes.substr(0, bytes.size() - kChecksumBytes)) !=
       ByteReader(bytes.substr(bytes.size() - kChecksumBytes), name).take<std::uint64_t>())
-    refuse_summary(name, "does not have its checksum: it was damaged");
+    refuse_summary(name, "does not have its checksum: it was cut off or damaged");
   summary.shared_error.resize(3 * static_cast<Eigen::Index>(objects), static_cast<Eigen::Index>(shared));
   summary.objects.reserve(objects);
   for (std::size_t i = 0; i < objects; ++i) summary.objects.push_back(take_object(i, summary, reader));
