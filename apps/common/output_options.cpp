@@ -45,6 +45,9 @@ void check_summary(const OutputOptions& options, const EstimationConfig& config)
     if (!options.flight_id.empty())
       throw std::invalid_argument(
           "--flight-id names the flight in its summary: give --summary or --mqtt, too");
+    if (!options.part_of.empty())
+      throw std::invalid_argument(
+          "--part-of names the whole flight in the summary of a part: give --summary or --mqtt, too");
     return;
   }
   if (config.geolocator.method != Method::kJoint)
@@ -55,12 +58,16 @@ void check_summary(const OutputOptions& options, const EstimationConfig& config)
   named.identity.flight = options.flight_id.empty() ? "a" : options.flight_id;
   for (const std::string& problem : named.problems())
     throw std::invalid_argument("--flight-id " + options.flight_id + ": " + problem);
+  if (!options.part_of.empty() && !is_flight_name(options.part_of))
+    throw std::invalid_argument("--part-of " + options.part_of +
+                                ": a flight's name must be 1 to 64 letters, digits, or any of - _ . :");
 }
 
 }  // namespace
 
 void add_summary(const OutputOptions& options, const Session& session, io::RunRecord& run) {
-  if (options.wants_summary()) run.flight_summary = summarize_session(session, options.flight_id);
+  if (options.wants_summary())
+    run.flight_summary = summarize_session(session, options.flight_id, options.part_of);
 }
 
 bool OutputOptions::wants_table() const {
@@ -124,6 +131,12 @@ void add_output_options(CLI::App& program, OutputOptions& options) {
   program
       .add_option("--flight-id", options.flight_id,
                   "Name of the flight in its summary [time and place of its start, and the vehicle's number]")
+      ->type_name("NAME")
+      ->group("Outputs");
+  program
+      .add_option(
+          "--part-of", options.part_of,
+          "Name of the whole flight, where this is a part of it [parts are known by the vehicle's boot]")
       ->type_name("NAME")
       ->group("Outputs");
   add_mqtt_options(

@@ -27,6 +27,7 @@ struct OutputOptions {
   std::string map;                 ///< file of the page's background map
   std::string summary;             ///< of the flight, for geoloc_fuse
   std::string flight_id;           ///< its name in the summary; empty: time and place of its start
+  std::string part_of;             ///< name of the whole flight in the summary; empty: that of the boot
   std::string csv;                 ///< of the objects
   std::string kml;                 ///< of the run
   std::vector<std::string> jsonl;  ///< files, or "-" for standard output
@@ -47,8 +48,8 @@ struct OutputOptions {
 /// --http-token, --map.
 void add_object_outputs(CLI::App& program, OutputOptions& options);
 
-/// These, and the outputs of a run: --jsonl, --raw, --rosbag, --klv, --summary, --flight-id, --mqtt and what
-/// belongs to it.
+/// These, and the outputs of a run: --jsonl, --raw, --rosbag, --klv, --summary, --flight-id, --part-of,
+/// --mqtt and what belongs to it.
 void add_output_options(CLI::App& program, OutputOptions& options);
 
 /// Those of them that are files, for check_outputs().

@@ -72,7 +72,13 @@ nb::tuple three(const Eigen::Vector3d& vector) {
   return nb::make_tuple(vector.x(), vector.y(), vector.z());
 }
 
-Fields to_dict(const FusedFlight& flight) {
+nb::tuple names_of_parts(const FusedMap& map, const FusedFlight& flight) {
+  nb::list names;
+  for (const std::size_t part : flight.parts) names.append(map.flights[part].identity.flight);
+  return nb::tuple(names);
+}
+
+Fields to_dict(const FusedMap& map, const FusedFlight& flight) {
   Fields fields;
   fields["flight"] = flight.identity.flight;
   fields["vehicle"] = flight.identity.vehicle;
@@ -84,6 +90,7 @@ Fields to_dict(const FusedFlight& flight) {
   fields["common_error_m"] = three(flight.common_error_m);
   fields["sigma_m"] = three(flight.sigma_m);
   fields["chi2"] = flight.chi2;
+  fields["parts"] = names_of_parts(map, flight);
   return fields;
 }
 
@@ -118,7 +125,7 @@ class Fused {
 
   std::vector<Fields> flights() const {
     std::vector<Fields> flights;
-    for (const FusedFlight& flight : map_.flights) flights.push_back(to_dict(flight));
+    for (const FusedFlight& flight : map_.flights) flights.push_back(to_dict(map_, flight));
     return flights;
   }
 

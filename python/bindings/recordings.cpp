@@ -102,8 +102,9 @@ class Run {
   std::optional<Fields> calibration() const { return calibration_of(session_.geolocator().calibration()); }
   const std::string& summary() const { return record_.summary; }
   const std::vector<std::string>& class_names() const { return recording_.class_names; }
-  std::optional<FlightSummary> flight_summary(const std::string& flight_id) const {
-    std::optional<FlightSummary> summary = apps::summarize_session(session_, flight_id);
+  std::optional<FlightSummary> flight_summary(const std::string& flight_id,
+                                              const std::string& part_of) const {
+    std::optional<FlightSummary> summary = apps::summarize_session(session_, flight_id, part_of);
     if (summary) require_usable(*summary);
     return summary;
   }
@@ -227,7 +228,7 @@ void bind_recordings(nb::module_& module) {
       .def("calibration", &Run::calibration)
       .def("summary", &Run::summary)
       .def("class_names", &Run::class_names)
-      .def("flight_summary", &Run::flight_summary, nb::arg("flight_id"))
+      .def("flight_summary", &Run::flight_summary, nb::arg("flight_id"), nb::arg("part_of"))
       .def("geojson", &Run::geojson)
       .def("fixes_csv", &Run::fixes_csv)
       .def(

@@ -75,7 +75,7 @@ class FusedFlight:
     verdict: str
     """"fused", "alone", "disputed", "quarantined" or "too far" (docs/fleet.md)."""
     reason: str
-    """For people; empty where it is fused."""
+    """For people; empty where it is fused, unless it contradicts other parts of its flight."""
     objects: int
     shared_objects: int
     """That other flights have, too."""
@@ -85,6 +85,8 @@ class FusedFlight:
     """1-sigma of that."""
     chi2: float
     """Of its common shift against all others, 2 degrees of freedom."""
+    parts: tuple[str, ...] = ()
+    """Names of the flights that are parts of one with it, itself included; empty: it is one by itself."""
 
 
 class FusedMap:

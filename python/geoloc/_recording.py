@@ -166,13 +166,14 @@ class Result:
         self.summary: str = run.summary()
         """Lines for a person, as geoloc_replay says them."""
 
-    def flight_summary(self, flight: str = "") -> FlightSummary | None:
+    def flight_summary(self, flight: str = "", *, part_of: str = "") -> FlightSummary | None:
         """All that the flight knows of its objects at rest, for `geoloc.fuse`: what geoloc_replay's --summary writes. None before the first
         located frame, and of the method "paper".
 
         flight: its name, up to 64 letters, digits and ``-_.:``; empty: the time and place of its start. Raises ValueError for another name.
+        part_of: that of the whole flight, where the recording is a part of it; empty: parts are known by the vehicle's boot.
         """
-        core = self._run.flight_summary(flight)
+        core = self._run.flight_summary(flight, part_of)
         return None if core is None else FlightSummary(core)
 
     def to_geojson(self, path: str | os.PathLike[str]) -> None:

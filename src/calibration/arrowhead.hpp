@@ -83,6 +83,9 @@ class ArrowheadSolver {
     /// between two.
     EnvelopeCholesky::Rows shared_error(const Landmark& landmark) const;
     Eigen::Index size_of_head() const { return layout_.size(); }
+    /// The same of a component of the calibration, and of one of a node.
+    Eigen::RowVectorXd shared_error_of_calibration(int index) const;
+    Eigen::RowVectorXd shared_error_of_node(std::uint32_t number, int component) const;
 
     /// How strongly the position was seen to wander, in units of what the nodes' prior says: one step of
     /// expectation maximisation. `drift` holds this solution's means, and the scale that it was found with.
@@ -93,6 +96,7 @@ class ArrowheadSolver {
     friend class ArrowheadSolver;
     double sum_of_steps(const DriftTimeline& drift, int component) const;
     void gather_sensitivity(const Landmark& landmark) const;
+    Eigen::RowVectorXd shared_error_of(Eigen::Index column) const;
     Solution(ArrowheadSolver& solver, const HeadLayout& layout);
 
     ArrowheadSolver* solver_;

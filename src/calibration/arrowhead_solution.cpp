@@ -114,6 +114,22 @@ EnvelopeCholesky::Rows ArrowheadSolver::Solution::shared_error(const Landmark& l
   return solver_->sensitivities_.leftCols(layout_.size());
 }
 
+Eigen::RowVectorXd ArrowheadSolver::Solution::shared_error_of(Eigen::Index column) const {
+  solver_->sensitivities_.leftCols(layout_.size()).setZero();
+  solver_->sensitivities_(0, column) = 1.0;
+  solver_->information_.solve_lower(solver_->sensitivities_, column);
+  return solver_->sensitivities_.row(0).head(layout_.size());
+}
+
+Eigen::RowVectorXd ArrowheadSolver::Solution::shared_error_of_calibration(int index) const {
+  return shared_error_of(layout_.column_of_calibration() + index);
+}
+
+Eigen::RowVectorXd ArrowheadSolver::Solution::shared_error_of_node(std::uint32_t number,
+                                                                   int component) const {
+  return shared_error_of(layout_.column_of(number) + component);
+}
+
 PointMatrix ArrowheadSolver::Solution::covariance(const Landmark& landmark) const {
   gather_sensitivity(landmark);
   return landmark.A().inverse() + solver_->head_covariance(first_column(landmark, layout_));

@@ -58,6 +58,16 @@ double DriftTimeline::ripple_between_nodes_m2() const {
   return share * ripple_variance(end_ - 1) / (1.0 - kept * kept);
 }
 
+NodeVector DriftTimeline::stationary_variance(std::uint32_t number) const {
+  const DriftNode& node = this->node(number);
+  const double squared_scale = position_scale_ * position_scale_;
+  NodeVector variance =
+      (node.information.array() * (1.0 - node.transition.array().square())).inverse().matrix();
+  variance.head<2>() *= squared_scale;
+  variance.head<2>().array() += ripple_variance(number) / (1.0 - std::pow(node.ripple_transition, 2));
+  return variance;
+}
+
 NodeSpan DriftTimeline::newest_span(VehicleTime time) {
   const std::uint32_t first = end_ - 2;
   const Duration length = node(first + 1).time - node(first).time;

@@ -102,6 +102,11 @@ class DriftTimeline {
   /// by beside the straight line between them [m^2].
   double ripple_between_nodes_m2() const;
 
+  /// A node's variance before anything was seen, were there no step of the state: the same at all times.
+  NodeVector stationary_variance(std::uint32_t number) const;
+
+  const DriftConfig& config() const { return config_; }
+
   /// How strongly the position wanders and ripples against what the receiver's accuracy let expect.
   double position_scale() const { return position_scale_; }
   void set_position_scale(double scale) { position_scale_ = scale; }

@@ -196,14 +196,15 @@ void join_sheets(std::vector<Placed>& placed, MapPlaces& places) {
   }
 }
 
-void add_to_map(std::size_t number, const AssociatedFlight& flight, const Placed& placed, MapPlaces& places) {
+void add_to_map(const AssociatedFlight& flight, const Placed& placed, MapPlaces& places) {
   for (std::size_t i = 0; i < flight.classes.size(); ++i) {
+    const Contribution member{flight.number, flight.part.first_object + i};
     const Eigen::Matrix2d information = placed.laid.covariances[i].inverse();
     if (placed.match[i]) {
       places.update(*placed.match[i], placed.laid.positions[i], information);
-      places[*placed.match[i]].members.push_back({number, i});
+      places[*placed.match[i]].members.push_back(member);
     } else {
-      places.add({placed.laid.positions[i], information, placed.on.sheet, flight.classes[i], {{number, i}}});
+      places.add({placed.laid.positions[i], information, placed.on.sheet, flight.classes[i], {member}});
     }
   }
 }
@@ -224,7 +225,7 @@ std::vector<Members> associate(const std::vector<AssociatedFlight>& flights, con
   MapPlaces places;
   for (const std::size_t number : order_of(flights)) {
     const AssociatedFlight& flight = flights[number];
-    const RelativeObjects relative = relative_objects(flight.model, config.sigma_object_m);
+    const RelativeObjects relative = relative_objects(flight.model, flight.part, config.sigma_object_m);
     std::vector<Placed> placed;
     for (const LaidFlight& on : find_shifts(relative, flight.classes, places, config))
       placed.push_back(place_on(on, flight, relative, places, config.gate));
@@ -234,7 +235,7 @@ std::vector<Members> associate(const std::vector<AssociatedFlight>& flights, con
           {{sheet}, laid_by_shift(relative, Eigen::Vector2d::Zero()), Match(flight.classes.size())});
     }
     join_sheets(placed, places);
-    add_to_map(number, flight, placed.front(), places);
+    add_to_map(flight, placed.front(), places);
   }
   std::vector<Members> objects = places.take();
   for (Members& members : objects) {

@@ -4,10 +4,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 
 #include "fleet/named_faults.hpp"
+#include "fleet/part_checks.hpp"
 #include "geometry/symmetric.hpp"
 
 namespace geoloc {
@@ -71,6 +73,26 @@ void check_apart(const FlightSummary& summary, NamedFaults& faults) {
   faults.require(are_places, "a pair apart must be two places in the list of objects, the smaller first");
 }
 
+/// East and north of the unknowns turn as the positions do.
+void turn_state(const Eigen::Matrix2d& turn, FlightState& state) {
+  constexpr std::array kEasts{FlightUnknown::kOffsetEast, FlightUnknown::kFirstDriftEast,
+                              FlightUnknown::kLastDriftEast};
+  for (std::size_t i = 0; i + 1 < state.unknowns.size(); ++i) {
+    FlightState::Unknown &east = state.unknowns[i], &north = state.unknowns[i + 1];
+    const bool is_pair = std::find(kEasts.begin(), kEasts.end(), east.which) != kEasts.end() &&
+                         static_cast<int>(north.which) == static_cast<int>(east.which) + 1;
+    if (!is_pair) continue;
+    const Eigen::Vector2d mean = turn * Eigen::Vector2d(east.mean, north.mean);
+    const Eigen::Vector2d prior = turn * Eigen::Vector2d(east.prior_mean, north.prior_mean);
+    east.mean = mean.x();
+    north.mean = mean.y();
+    east.prior_mean = prior.x();
+    north.prior_mean = prior.y();
+    auto rows = state.shared_error.middleRows<2>(static_cast<Eigen::Index>(i));
+    rows = (turn * rows).eval();
+  }
+}
+
 }  // namespace
 
 bool is_flight_name(std::string_view name) {
@@ -102,6 +124,8 @@ std::vector<std::string> FlightSummary::problems() const {
   }
   faults.enter("");
   check_apart(*this, faults);
+  faults.enter("part of a flight: ");
+  if (part) check_part(*part, shared_count(), faults);
   return faults.take();
 }
 
@@ -136,6 +160,7 @@ FlightSummary transformed_to(const LocalFrame& frame, const FlightSummary& summa
     auto rows = moved.shared_error.middleRows<3>(3 * static_cast<Eigen::Index>(i));
     rows = (turn * rows).eval();
   }
+  if (moved.part) turn_state(turn.topLeftCorner<2, 2>(), moved.part->state);
   return moved;
 }
 

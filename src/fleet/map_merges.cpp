@@ -13,7 +13,7 @@ namespace geoloc {
 namespace {
 
 constexpr double kReach_m = 2.0;
-/// Chi-square, 2 degrees of freedom, 95 %: for two objects of one flight.
+/// Chi-square, 2 degrees of freedom, 95 %: for two objects of one part.
 constexpr double kStrictGate = 5.99;
 
 /// Horizontal, of the object among its neighbours.
@@ -24,19 +24,22 @@ Eigen::Matrix2d own_covariance(const std::vector<FlightModel>& flights, const Me
   return information.inverse().topLeftCorner<2, 2>();
 }
 
-enum class Kinship { kNone, kOneFlight, kApart };
+enum class Kinship { kNone, kOnePart, kApart };
 
-/// Whether a flight has objects in both, and whether it saw them side by side.
-Kinship kinship(const std::vector<const FlightSummary*>& summaries, const Members& a, const Members& b) {
+/// Whether a part of a flight has objects in both, and whether it saw them side by side.
+Kinship kinship(const FusionInput& input, const Members& a, const Members& b) {
   Kinship found = Kinship::kNone;
   for (const Contribution& of_a : a) {
     for (const Contribution& of_b : b) {
       if (of_a.flight != of_b.flight) continue;
-      const auto [first, second] = std::minmax(of_a.object, of_b.object);
-      const auto& apart = summaries[of_a.flight]->apart;
+      const FlightPart& part = input.part_of(of_a);
+      if (!part.has(of_b.object)) continue;
+      const std::size_t one = of_a.object - part.first_object, other = of_b.object - part.first_object;
+      const auto [first, second] = std::minmax(one, other);
+      const auto& apart = input.summaries[part.summary].apart;
       const std::pair pair(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(second));
       if (std::binary_search(apart.begin(), apart.end(), pair)) return Kinship::kApart;
-      found = Kinship::kOneFlight;
+      found = Kinship::kOnePart;
     }
   }
   return found;
@@ -44,12 +47,11 @@ Kinship kinship(const std::vector<const FlightSummary*>& summaries, const Member
 
 }  // namespace
 
-bool merge_neighbours(const std::vector<const FlightSummary*>& summaries,
-                      const std::vector<FlightModel>& flights, const MapEstimate& estimate,
-                      const FusionConfig& config, std::vector<Members>& objects) {
+bool merge_neighbours(const FusionInput& input, const MapEstimate& estimate, const FusionConfig& config,
+                      std::vector<Members>& objects) {
   PlaceIndex index(kReach_m);
   std::vector<Eigen::Matrix2d> own;
-  for (const Members& members : objects) own.push_back(own_covariance(flights, members));
+  for (const Members& members : objects) own.push_back(own_covariance(input.models, members));
   const auto position = [&](std::uint32_t key) -> Eigen::Vector2d {
     return estimate.objects[key].position.head<2>();
   };
@@ -64,8 +66,8 @@ bool merge_neighbours(const std::vector<const FlightSummary*>& summaries,
       const double chi2 =
           mahalanobis_squared(Eigen::Vector2d(position(other) - here), own[other] + own[key] + of_object);
       if (!(chi2 < least)) return;
-      const Kinship kin = kinship(summaries, objects[other], objects[key]);
-      if (kin == Kinship::kApart || (kin == Kinship::kOneFlight && chi2 > kStrictGate)) return;
+      const Kinship kin = kinship(input, objects[other], objects[key]);
+      if (kin == Kinship::kApart || (kin == Kinship::kOnePart && chi2 > kStrictGate)) return;
       least = chi2;
       nearest = other;
     });

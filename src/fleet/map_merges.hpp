@@ -3,17 +3,16 @@
 
 #include <vector>
 
-#include "fleet/flight_model.hpp"
+#include "fleet/fusion_input.hpp"
 #include "fleet/map_solver.hpp"
 
 namespace geoloc {
 
 /// Makes one of neighbours on the map that are one object: they lie where one object would by what each
-/// flight knows of them by itself, and no flight saw them side by side. Two objects of one flight that were
-/// never in a frame together are compared more strictly, since the flight did not take them for one. Whether
+/// flight knows of them by itself, and no flight saw them side by side. Two objects of one part that were
+/// never in a frame together are compared more strictly, since the run did not take them for one. Whether
 /// there were any.
-bool merge_neighbours(const std::vector<const FlightSummary*>& summaries,
-                      const std::vector<FlightModel>& flights, const MapEstimate& estimate,
-                      const FusionConfig& config, std::vector<Members>& objects);
+bool merge_neighbours(const FusionInput& input, const MapEstimate& estimate, const FusionConfig& config,
+                      std::vector<Members>& objects);
 
 }  // namespace geoloc

@@ -4,11 +4,12 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fleet/flight_model.hpp"
+#include "fleet/fleet_flight.hpp"
 
 namespace geoloc {
 
-/// Objects of a flight as they lie among each other, horizontally [m]: what all are off by together is apart.
+/// Objects of a part of a flight as they lie among each other, horizontally [m]: what all are off by together
+/// is apart.
 struct RelativeObjects {
   using RowsOfAll = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -20,6 +21,6 @@ struct RelativeObjects {
 };
 
 /// `sigma_object_m`: of an object seen from different directions.
-RelativeObjects relative_objects(const FlightModel& flight, double sigma_object_m);
+RelativeObjects relative_objects(const FlightModel& flight, const FlightPart& part, double sigma_object_m);
 
 }  // namespace geoloc

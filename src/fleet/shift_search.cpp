@@ -27,7 +27,7 @@ constexpr double kSigmasToSearch = 3.5;
 constexpr std::size_t kObjectsTried = 200;
 /// Shifts that are tried, of those that most pairs agree with.
 constexpr std::size_t kShiftsTried = 12;
-constexpr int kRefinements = 3;
+constexpr int kShiftRefinements = 3;
 /// A flight is somewhere by chance unless it is so much likelier.
 constexpr double kLeastScore = 3.0;
 /// An object that stands beside places of the map, and at none of them: the other flight would have seen it,
@@ -115,7 +115,7 @@ class ShiftSearch {
     const Eigen::Matrix2d uncertainty = flight_.shift_covariance + places_.shift_covariance(sheet);
     prepare(pairs);
     for (Eigen::Vector2d shift : likely_shifts(pairs, cell_m_)) {
-      for (int i = 0; i < kRefinements; ++i) shift += fit(pairs, shift).correction;
+      for (int i = 0; i < kShiftRefinements; ++i) shift += fit(pairs, shift).correction;
       const Fit final_fit = fit(pairs, shift);
       const double chi2 = mahalanobis_squared(shift, uncertainty);
       if (chi2 > config_.gate && !outweighs_sigma(final_fit, pairs)) continue;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "fleet/fewer_errors.hpp"
 #include "geoloc/fleet/flight_summary.hpp"
 #include "geometry/symmetric.hpp"
 
@@ -47,7 +48,7 @@ Eigen::MatrixXd whitened(const FlightSummary& summary, Eigen::Index first) {
   return white;
 }
 
-/// The last columns become the objects' own noise.
+/// The last columns become the objects' own noise, and errors of the flight's state by itself.
 void drop_after(Eigen::Index kept, FlightSummary& summary) {
   const Eigen::Index dropped = summary.shared_count() - kept;
   for (std::size_t i = 0; i < summary.objects.size(); ++i) {
@@ -55,6 +56,8 @@ void drop_after(Eigen::Index kept, FlightSummary& summary) {
     summary.objects[i].own_covariance += symmetric(rows * rows.transpose());
   }
   summary.shared_error = summary.shared_error.leftCols(kept).eval();
+  if (summary.part)
+    summary.part->state.shared_error = with_fewer_errors(summary.part->state.shared_error, kept);
 }
 
 /// Those that only deform are sorted by their effect, and those of next to none are dropped.
@@ -62,8 +65,12 @@ void sort_deformations(FlightSummary& summary) {
   const Eigen::Index count = summary.shared_count() - kShift;
   const Eigen::MatrixXd white = whitened(summary, kShift);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> effects(white.transpose() * white);
-  summary.shared_error.rightCols(count) =
-      (summary.shared_error.rightCols(count) * effects.eigenvectors().rowwise().reverse()).eval();
+  const Eigen::MatrixXd turn = effects.eigenvectors().rowwise().reverse();
+  summary.shared_error.rightCols(count) = (summary.shared_error.rightCols(count) * turn).eval();
+  if (summary.part) {
+    auto of_state = summary.part->state.shared_error.rightCols(count);
+    of_state = (of_state * turn).eval();
+  }
   const auto& values = effects.eigenvalues();  // rising
   const Eigen::Index told = (values.array() > kLeastEffect).count();
   drop_after(std::min(kShift + told, FlightSummary::kMostShared), summary);
@@ -72,7 +79,7 @@ void sort_deformations(FlightSummary& summary) {
 }  // namespace
 
 FlightSummary summarize(const JointEstimate& estimate, FlightIdentity identity, const Geodetic& origin,
-                        std::optional<double> home_height_msl_m) {
+                        std::optional<double> home_height_msl_m, std::optional<FlightRun> run) {
   FlightSummary summary;
   summary.identity = std::move(identity);
   summary.origin = origin;
@@ -80,8 +87,15 @@ FlightSummary summarize(const JointEstimate& estimate, FlightIdentity identity, 
   for (const JointEstimate::Object& object : estimate.objects) summary.objects.push_back(object_of(object));
   summary.shared_error = estimate.shared_error;
   summary.apart = estimate.apart;
-  if (summary.shared_count() <= kShift || summary.objects.empty()) return summary;
-  summary.shared_error = (summary.shared_error * shift_first(summary)).eval();
+  if (run) summary.part = FlightSummary::Part{*std::move(run), estimate.flight_state};
+  if (summary.objects.empty()) {
+    drop_after(0, summary);
+    return summary;
+  }
+  if (summary.shared_count() <= kShift) return summary;
+  const Eigen::MatrixXd turn = shift_first(summary);
+  summary.shared_error = (summary.shared_error * turn).eval();
+  if (summary.part) summary.part->state.shared_error = (estimate.flight_state.shared_error * turn).eval();
   sort_deformations(summary);
   return summary;
 }

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "calibration/flight_state.hpp"
 #include "geometry/symmetric.hpp"
 
 namespace geoloc {
@@ -75,11 +76,12 @@ std::optional<JointEstimate> joint_estimate(const JointState& state, double grou
   const auto solution = solver.solve(landmarks_of(state.awake), errors.prior(), errors.drift, state.heights,
                                      &state.sleeping.settled());
   if (!solution) return std::nullopt;
+  JointEstimate estimate;
+  estimate.flight_state = flight_state(solver, *solution, errors);
   errors.take(*solution);
   const double level_m = ground_height_above_home_m - errors.calibration.height_m();
   const std::vector<Found> found = confirmed_objects(state, errors.drift);
 
-  JointEstimate estimate;
   estimate.shared_error.setZero(static_cast<Eigen::Index>(kPointSize * found.size()),
                                 solution->size_of_head());
   for (std::size_t i = 0; i < found.size(); ++i) {

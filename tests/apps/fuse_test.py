@@ -2,6 +2,7 @@
 import json
 import unittest
 
+from split_recording import split_recording
 from support import AppTest, rmse_m, run
 
 FLIGHTS = ("gnss_path1", "gnss_path2", "gnss_path3")
@@ -70,6 +71,47 @@ class Fleets(AppTest):
         told = self.fuse(file, "--known-points", self.write("survey.geojson", truth), "--out", self.folder / "map.geojson").err
         self.assertRegex(told, "known-points +alone +30 +0 ")
         self.assertEqual(len(json.loads((self.folder / "map.geojson").read_text())["features"]), 30)
+
+    def replayed_parts(self, *options):
+        """The summaries of a flight whose app was started again in the air, as files; that of the whole flight is the last."""
+        whole = self.summary(FLIGHTS[0], "whole.json")
+        parts = [self.folder / "first", self.folder / "second"]
+        split_recording(self.folder / FLIGHTS[0], parts, [0.5])
+        files = [part.with_suffix(".fs") for part in parts]
+        for part, file in zip(parts, files):
+            replayed = run("geoloc_replay", part, "--summary", file, "--out", self.folder / "objects.geojson", *options)
+            self.assertEqual(replayed.status, 0, replayed.err)
+        return [*files, whole]
+
+    def sigma_m(self, file):
+        """Stated 1-sigma of the objects, in the mean."""
+        objects = json.loads(file.read_text())["features"]
+        return sum(feature["properties"]["sigma_major_m"] for feature in objects) / len(objects)
+
+    def test_halves_of_a_flight_are_the_flight_and_not_two(self):
+        first, second, whole = self.replayed_parts()
+        truth = self.folder / FLIGHTS[0] / "truth.geojson"
+        halves, of_whole = self.folder / "halves.geojson", self.folder / "whole.geojson"
+        told = self.fuse(first, second, "--truth", truth, "--out", halves).err
+        self.assertIn("found 30 / 30", told)
+        self.assertIn("one flight with its other parts", told)
+        self.assertLess(abs(rmse_m(told) - rmse_m(self.fuse(whole, "--truth", truth, "--out", of_whole).err)), 0.15)
+        document = json.loads(halves.read_text())
+        names = [flight["flight"] for flight in document["flights"]]
+        for flight in document["flights"]:
+            self.assertEqual((flight["verdict"], flight["parts"]), ("alone", names))
+        self.assertGreater(self.sigma_m(halves), 0.8 * self.sigma_m(of_whole))  # two flights would state 0.7 of it
+
+    def test_a_user_may_say_what_is_part_of_which_flight(self):
+        first, second, _ = self.replayed_parts("--part-of", "tuesday")
+        out = self.folder / "map.geojson"
+        self.assertIn("one flight with its other parts", self.fuse(first, second, "--out", out).err)
+        replayed = run("geoloc_replay", self.folder / "second", "--part-of", "monday", "--summary", second, "--out", self.folder / "objects.geojson")
+        self.assertEqual(replayed.status, 0, replayed.err)
+        self.assertNotIn("one flight with its other parts", self.fuse(first, second, "--out", out).err)
+        refused = run("geoloc_replay", self.folder / "second", "--part-of", "my flight", "--summary", second)
+        self.assert_refused(refused, "--part-of my flight", "letters, digits")
+        self.assert_refused(run("geoloc_replay", self.folder / "second", "--part-of", "monday"), "--part-of", "--summary")
 
     def test_both_forms_of_a_summary_say_the_same(self):
         outs = []

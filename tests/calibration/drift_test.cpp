@@ -122,6 +122,7 @@ TEST(DriftTimeline, WandersAsStationaryGaussMarkovProcesses) {
             time_of(drift, static_cast<std::uint32_t>(a)) - time_of(drift, static_cast<std::uint32_t>(b));
         EXPECT_NEAR(covariance(a, b), covariance_of(config, i, apart_s), 1e-12);
       }
+      EXPECT_NEAR(drift.stationary_variance(static_cast<std::uint32_t>(a))[i], covariance(a, a), 1e-12);
     }
   }
 }
@@ -438,6 +439,18 @@ TEST_F(DriftToThin, ExpectsOfTheNodesThatRemainWhatItDid) {
     }
   }
   EXPECT_LT(drift_.size(), 9) << "some were left out";
+}
+
+/// Steps and what was left out make no difference: it is that of the process.
+TEST_F(DriftToThin, IsExpectedToWanderAsFarAtAnyTime) {
+  while (const auto node = drift_.next_to_thin()) drift_.thin(*node);
+  for (std::uint32_t number = drift_.begin(); number != drift_.end(); ++number) {
+    for (int i = 0; i < kNodeSize; ++i) {
+      const double scale = i < 2 ? drift_.position_scale() : 1.0;
+      EXPECT_NEAR(drift_.stationary_variance(number)[i], std::pow(scale * sigma_of(distinct_config(), i), 2),
+                  1e-12);
+    }
+  }
 }
 
 /// A vehicle that reboots begins a new clock and a new drift: between its nodes and those before, there is no

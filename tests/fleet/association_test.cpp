@@ -26,9 +26,15 @@ bool is_right(const std::vector<Members>& objects, std::size_t targets) {
          });
 }
 
+AssociatedFlight flight_to_associate(std::size_t number, const FlightModel& model,
+                                     const std::vector<int>& classes) {
+  return {number, model, flight_of(number, model).parts.front(), classes};
+}
+
 std::vector<Members> associate_all(const std::vector<FlightModel>& models, std::size_t targets) {
   std::vector<AssociatedFlight> flights;
-  for (const FlightModel& model : models) flights.push_back({model, std::vector<int>(targets, 0)});
+  for (const FlightModel& model : models)
+    flights.push_back(flight_to_associate(flights.size(), model, std::vector<int>(targets, 0)));
   return associate(flights, {});
 }
 
@@ -70,8 +76,9 @@ TEST(Association, AFewObjectsThatFitByChanceAreNotTheSame) {
   const std::vector<Eigen::Vector3d> elsewhere{targets[0] + Eigen::Vector3d(9.0, 6.0, 0.0),
                                                targets[0] + Eigen::Vector3d(9.0, 13.0, 0.0)};
   const FlightModel other = model_of(draw_flight("b", elsewhere, {}, random), 4, 3.0);
-  const auto objects =
-      associate({{map, std::vector<int>(30, 0)}, {other, std::vector<int>(2, 0)}}, FusionConfig{});
+  const auto objects = associate({flight_to_associate(0, map, std::vector<int>(30, 0)),
+                                  flight_to_associate(1, other, std::vector<int>(2, 0))},
+                                 FusionConfig{});
   EXPECT_EQ(objects.size(), 32U);
 }
 
@@ -85,7 +92,11 @@ TEST(Association, TheSameClassIsPreferred) {
     const FlightModel a = model_of(draw_flight("a", targets, errors, random), 4, 3.0);
     const FlightModel b = model_of(draw_flight("b", targets, errors, random), 4, 3.0);
     const std::vector<int> classes{1, 2, 3, 3, 3};
-    right += is_right(associate({{a, classes}, {b, classes}}, FusionConfig{}), 5) ? 1 : 0;
+    right += is_right(associate({flight_to_associate(0, a, classes), flight_to_associate(1, b, classes)},
+                                FusionConfig{}),
+                      5)
+                 ? 1
+                 : 0;
   }
   EXPECT_GE(right, 45);
 }

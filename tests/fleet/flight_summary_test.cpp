@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "fleet/synthetic_fleet.hpp"
@@ -54,6 +55,10 @@ JointEstimate any_estimate(std::mt19937& random) {
     object.position_in_enu = {normal(random), normal(random), normal(random)};
     estimate.objects.push_back(object);
   }
+  estimate.flight_state.shared_error.resize(5, kErrors);
+  for (double& element : estimate.flight_state.shared_error.reshaped()) element = normal(random);
+  for (int i = 0; i < 5; ++i)
+    estimate.flight_state.unknowns.push_back({static_cast<FlightUnknown>(2 * i), 0.1 * i, 0.0, 10.0});
   return estimate;
 }
 
@@ -130,6 +135,36 @@ TEST(Summarize, KeepsTheJointCovariance) {
   EXPECT_LT(summary.shared_count(), estimate.shared_error.cols());
 }
 
+/// The covariance of what outlasts the run is kept whole, and with objects as the objects' own.
+TEST(Summarize, KeepsWhatOutlastsTheRun) {
+  std::mt19937 random(14);
+  const JointEstimate estimate = any_estimate(random);
+  const FlightSummary summary =
+      summarize(estimate, {"a", "", 1}, testing::kFleetOrigin, std::nullopt, FlightRun{"tuesday", {}, {}});
+  ASSERT_TRUE(summary.problems().empty()) << summary.problems().front();
+  const Eigen::MatrixXd &rows = summary.part->state.shared_error, &whole = estimate.flight_state.shared_error;
+  EXPECT_LT((rows * rows.transpose() - whole * whole.transpose()).norm(), 1e-12);
+  EXPECT_LT(rows.cols(), whole.cols());
+  const Eigen::MatrixXd with_objects =
+      summary.shared_error * rows.leftCols(summary.shared_count()).transpose();
+  const Eigen::MatrixXd expected = estimate.shared_error * whole.transpose();
+  EXPECT_LT((with_objects - expected).norm(), 0.01 * expected.norm());
+}
+
+/// Nothing that no object shows, and what outlasts the run nevertheless.
+TEST(Summarize, AFlightWithoutObjectsKeepsWhatOutlastsIt) {
+  std::mt19937 random(15);
+  JointEstimate estimate = any_estimate(random);
+  estimate.objects.clear();
+  estimate.shared_error.resize(0, estimate.shared_error.cols());
+  const FlightSummary summary =
+      summarize(estimate, {"a", "", 1}, testing::kFleetOrigin, std::nullopt, FlightRun{});
+  ASSERT_TRUE(summary.problems().empty()) << summary.problems().front();
+  const Eigen::MatrixXd &rows = summary.part->state.shared_error, &whole = estimate.flight_state.shared_error;
+  EXPECT_EQ(rows.cols(), 5);
+  EXPECT_LT((rows * rows.transpose() - whole * whole.transpose()).norm(), 1e-12);
+}
+
 TEST(Summarize, PutsWhatMovesAllObjectsIntoTheFirstThreeErrors) {
   std::mt19937 random(12);
   const FlightSummary summary =
@@ -170,6 +205,26 @@ TEST(TransformedTo, ErrorsTurnWithThePlaces) {
   const Eigen::Matrix2d own = moved.objects[0].own_covariance.topLeftCorner<2, 2>();
   EXPECT_NEAR(north.dot(own * north), 4.0, 1e-6);
   EXPECT_NEAR(east.dot(own * east), 0.01, 1e-6);
+}
+
+/// What is off by a metre to the north is so by the other frame's north, which is turned.
+TEST(TransformedTo, OffsetsOfTheReceiverTurn) {
+  FlightSummary summary = any_flight(2);
+  FlightSummary::Part part;
+  part.state.unknowns = {{FlightUnknown::kHeight, 2.0, 0.0, 1.0},
+                         {FlightUnknown::kOffsetEast, 0.0, 0.0, 1.0},
+                         {FlightUnknown::kOffsetNorth, 1.0, 0.0, 1.0}};
+  part.state.shared_error = Eigen::Matrix3d::Identity();
+  summary.part = part;
+  const LocalFrame frame({-23.2, -42.8});
+  const FlightState moved = transformed_to(frame, summary).part->state;
+  const double turn_rad = frame.to_local(summary.origin).convergence_rad;
+  EXPECT_GT(std::abs(turn_rad), 1e-3);
+  EXPECT_EQ(moved.unknowns[0].mean, 2.0);
+  EXPECT_NEAR(moved.unknowns[1].mean, std::sin(turn_rad), 1e-12);
+  EXPECT_NEAR(moved.unknowns[2].mean, std::cos(turn_rad), 1e-12);
+  EXPECT_NEAR(moved.shared_error(2, 2), std::cos(turn_rad), 1e-12);
+  EXPECT_NEAR(moved.shared_error(1, 2), std::sin(turn_rad), 1e-12);
 }
 
 TEST(TransformedTo, ThereAndBackIsTheSame) {

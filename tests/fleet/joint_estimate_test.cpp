@@ -103,6 +103,31 @@ TEST(JointEstimate, IsNoneBeforeAFlightBegins) {
   EXPECT_FALSE(Geolocator{GeolocatorConfig{}}.joint_estimate());
 }
 
+/// What another run over the flight has in common with this one, as the estimator tells it elsewhere.
+TEST(JointEstimate, TellsOfWhatOutlastsTheRun) {
+  NadirFlight flight(GeolocatorConfig{}, northwards);
+  flight.set_accuracy(1.5);
+  for (int i = 0; i < 150; ++i) flight.see_points(0.1 * i, places(), [] { return 0.0; });
+  const auto estimate = flight.geolocator().joint_estimate();
+  ASSERT_TRUE(estimate);
+  const FlightState& state = estimate->flight_state;
+  ASSERT_EQ(state.unknowns.size(), 16U);  // the focal length is known
+  EXPECT_EQ(state.shared_error.cols(), estimate->shared_error.cols());
+  const auto calibration = flight.geolocator().calibration();
+  for (std::size_t i = 0; i < state.unknowns.size(); ++i) {
+    const FlightState::Unknown& unknown = state.unknowns[i];
+    const double sigma = state.shared_error.row(static_cast<Eigen::Index>(i)).norm();
+    EXPECT_LE(sigma, unknown.prior_sigma * (1.0 + 1e-9)) << i;
+    if (unknown.which != FlightUnknown::kHeight && unknown.which != FlightUnknown::kOffsetEast) continue;
+    const int index = static_cast<int>(unknown.which);
+    EXPECT_NEAR(unknown.mean, calibration->mean[index], 0.05) << i;
+    EXPECT_NEAR(sigma, calibration->sigma(index), 0.1 * sigma) << i;
+  }
+  EXPECT_EQ(state.first_node_at, testing::at_s(0.0));
+  EXPECT_GT(state.last_node_at, testing::at_s(14.0));
+  EXPECT_LT(state.last_node_at, testing::at_s(19.0));
+}
+
 /// The receiver's constant error is in it: no look shows it, and other flights may.
 TEST(JointEstimate, SummarisedHoldsTheReceiversOffset) {
   NadirFlight flight(GeolocatorConfig{}, northwards);

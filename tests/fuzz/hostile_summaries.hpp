@@ -38,6 +38,14 @@ inline void use(const FlightSummary& summary) {
   other.identity.flight = "other";
   take(summary, fleet);
   take(other, fleet);
+  if (summary.part) {  // the rest of the flight, as the same summary would have it
+    other.identity.flight = "rest";
+    const Duration length = other.part->run.ended_at - other.part->state.first_node_at;
+    for (VehicleTime* const time :
+         {&other.part->run.ended_at, &other.part->state.first_node_at, &other.part->state.last_node_at})
+      *time += length;
+    take(other, fleet);
+  }
   require(is_usable(fuse(fleet)));
 }
 

@@ -5,6 +5,7 @@ import unittest
 import numpy as np
 
 import geoloc
+from split_recording import split_recording
 from support import AppTest, run
 
 
@@ -73,6 +74,18 @@ class PythonFleets(AppTest):
             result.flight_summary("my flight")
         with self.assertRaisesRegex(ValueError, "quarantine_gate"):
             geoloc.fuse([], quarantine_gate=-1.0)
+
+    def test_the_parts_of_a_flight_name_each_other(self):
+        parts = [self.folder / "first", self.folder / "second"]
+        split_recording(self.make_recording("whole", "--flight", "gnss_path1", "--scenario", "2"), parts, [0.5])
+        summaries = [geoloc.replay(part).flight_summary() for part in parts]
+        names = tuple(summary.flight for summary in summaries)
+        self.assertEqual([flight.parts for flight in geoloc.fuse(summaries).flights], [names, names])
+        document = summaries[0].to_json()
+        self.assertEqual(geoloc.FlightSummary.from_bytes(json.dumps(document).encode()).to_bytes(), summaries[0].to_bytes())
+        other = geoloc.replay(parts[1]).flight_summary(part_of="tuesday")
+        self.assertEqual(other.to_json()["part"]["whole"], "tuesday")
+        self.assertEqual([flight.parts for flight in geoloc.fuse([summaries[0], other]).flights], [(), ()])
 
     def test_where_nothing_is_known_nothing_is_made_up(self):
         self.assertIsNone(geoloc.replay(self.make_recording(), method="paper").flight_summary())

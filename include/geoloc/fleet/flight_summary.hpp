@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "geoloc/calibration/flight_state.hpp"
 #include "geoloc/geometry/geodetic.hpp"
 #include "geoloc/geometry/time.hpp"
 #include "geoloc/tracking/class_votes.hpp"
@@ -25,6 +26,15 @@ struct FlightIdentity {
   std::string flight;          ///< the same for all summaries of one flight, and of no other; see kMostName
   std::string vehicle;         ///< for people; may be empty
   std::uint64_t sequence = 0;  ///< a higher one replaces a lower one
+};
+
+/// Which run of the estimator over a flight a summary is of: the app may be started again in the air, or a
+/// recording be split.
+struct FlightRun {
+  std::string
+      whole;  ///< the flight that it is part of, as a user calls it; empty: that of the vehicle's boot
+  HostTime booted_at;    ///< the vehicle's clock began to count then
+  VehicleTime ended_at;  ///< its last frame
 };
 
 /// All that one flight knows of its objects at rest, as a plain value: it can be sent, kept, and fused with
@@ -50,6 +60,13 @@ struct FlightSummary {
     HostTime last_seen;
   };
 
+  /// What makes two summaries parts of one flight, and what they share as such. Of its shared errors the
+  /// first are those of the objects; the others concern no object.
+  struct Part {
+    FlightRun run;
+    FlightState state;
+  };
+
   FlightIdentity identity;
   Geodetic origin;                          ///< of the local frame that positions are in
   std::optional<double> home_height_msl_m;  ///< of the home that heights count from, where it is known
@@ -60,6 +77,7 @@ struct FlightSummary {
   /// Objects, as places in the list, that a frame showed side by side: never one. Sorted, the smaller place
   /// first, each pair once.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
+  std::optional<Part> part;  ///< nullopt: it is known to be part of none but its own
 
   Eigen::Index shared_count() const { return shared_error.cols(); }
   /// Rows of object i.
@@ -79,9 +97,10 @@ struct FlightSummary {
 Eigen::Matrix<double, 3, Eigen::Dynamic> common_shift(const FlightSummary& summary);
 
 /// The summary of a flight. Shared errors that change no variance by more than a thousandth are made part of
-/// the objects' own noise, so that there are about as many as tell something.
+/// the objects' own noise, so that there are about as many as tell something. `run`: where other summaries
+/// may be of the same flight.
 FlightSummary summarize(const JointEstimate& estimate, FlightIdentity identity, const Geodetic& origin,
-                        std::optional<double> home_height_msl_m);
+                        std::optional<double> home_height_msl_m, std::optional<FlightRun> run = std::nullopt);
 
 /// The same summary with all positions in another local frame: moved, and turned by the convergence of the
 /// meridians. Frames at most some 50 km apart: the earth's curvature between them is not in the covariances.

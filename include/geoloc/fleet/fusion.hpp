@@ -71,7 +71,9 @@ enum class FlightVerdict {
 struct FusedFlight {
   FlightIdentity identity;
   FlightVerdict verdict = FlightVerdict::kAlone;
-  std::string reason;  ///< of all but kFused, for people
+  std::string reason;  ///< of all but kFused, and of a flight that contradicts its other parts; for people
+  /// Places of the flights that are parts of one with it, itself included; empty: it is one by itself.
+  std::vector<std::size_t> parts;
   /// By how much its objects are off in common [m]: reported minus estimated, east, north, up.
   Eigen::Vector3d common_error_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();  ///< of that

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "geoloc/calibration/flight_state.hpp"
 #include "geoloc/tracking/track.hpp"
 
 namespace geoloc {
@@ -26,6 +27,8 @@ struct JointEstimate {
   Eigen::MatrixXd shared_error;
   /// Objects, as places in the list, that a frame showed side by side: never one. The smaller one first.
   std::vector<std::pair<std::uint32_t, std::uint32_t>> apart;
+  /// What another run over the same flight shares with this one: its shared errors are those of the objects.
+  FlightState flight_state;
 };
 
 }  // namespace geoloc

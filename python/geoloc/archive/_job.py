@@ -115,7 +115,7 @@ def _work(task: Task, recording: pathlib.Path) -> Outcome:
     if read_result(place) is not None:
         return Outcome(key, is_kept=True)
     run = _core.Run(os.fspath(recording), task.keep_going, task.settings)
-    summary = run.flight_summary("")
+    summary = run.flight_summary("", "")
     files = {OBJECTS: run.geojson().encode()}
     if summary is not None:
         files[SUMMARY] = summary.to_bytes()

@@ -29,17 +29,37 @@ ordered_json three(const Eigen::Vector3d& vector) {
   return {decimals(vector.x(), 4), decimals(vector.y(), 4), decimals(vector.z(), 4)};
 }
 
-ordered_json flight_to_json(const FusedFlight& flight) {
-  return {{"flight", flight.identity.flight},
-          {"vehicle", flight.identity.vehicle},
-          {"sequence", flight.identity.sequence},
-          {"verdict", word_of(flight.verdict)},
-          {"reason", flight.reason},
-          {"objects", flight.objects},
-          {"shared_objects", flight.shared_objects},
-          {"common_error_enu_m", three(flight.common_error_m)},
-          {"sigma_enu_m", three(flight.sigma_m)},
-          {"chi2", decimals(flight.chi2, 2)}};
+std::vector<std::string> names_of_parts(const FusedMap& map, const FusedFlight& flight) {
+  std::vector<std::string> names;
+  for (const std::size_t part : flight.parts) names.push_back(map.flights[part].identity.flight);
+  return names;
+}
+
+/// Which others a flight is one with; empty: none.
+std::string words_of_parts(const FusedMap& map, const FusedFlight& flight) {
+  if (flight.parts.empty()) return "";
+  return fmt::format("one flight with its other parts: {}", fmt::join(names_of_parts(map, flight), ", "));
+}
+
+/// All that a person is to be told of what became of a flight.
+std::string words_of(const FusedMap& map, const FusedFlight& flight) {
+  const std::string parts = words_of_parts(map, flight);
+  return flight.reason + (flight.reason.empty() || parts.empty() ? "" : "; ") + parts;
+}
+
+ordered_json flight_to_json(const FusedMap& map, const FusedFlight& flight) {
+  ordered_json told{{"flight", flight.identity.flight},
+                    {"vehicle", flight.identity.vehicle},
+                    {"sequence", flight.identity.sequence},
+                    {"verdict", word_of(flight.verdict)},
+                    {"reason", flight.reason},
+                    {"objects", flight.objects},
+                    {"shared_objects", flight.shared_objects},
+                    {"common_error_enu_m", three(flight.common_error_m)},
+                    {"sigma_enu_m", three(flight.sigma_m)},
+                    {"chi2", decimals(flight.chi2, 2)}};
+  if (!flight.parts.empty()) told["parts"] = names_of_parts(map, flight);
+  return told;
 }
 
 }  // namespace
@@ -90,7 +110,7 @@ std::vector<FlightReport> report_flights(const FusedMap& map, const Fleet& fleet
                         flight.identity.vehicle,
                         flight.identity.sequence,
                         word_of(flight.verdict),
-                        flight.reason,
+                        words_of(map, flight),
                         flight.common_error_m,
                         flight.sigma_m,
                         flight.chi2,
@@ -109,7 +129,7 @@ std::vector<FlightReport> report_flights(const FusedMap& map, const Fleet& fleet
 
 std::string fused_to_geojson(const FusedMap& map, const std::vector<ObjectReport>& objects) {
   auto flights = ordered_json::array(), features = ordered_json::array();
-  for (const FusedFlight& flight : map.flights) flights.push_back(flight_to_json(flight));
+  for (const FusedFlight& flight : map.flights) flights.push_back(flight_to_json(map, flight));
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (has_place(objects[i])) features.push_back(feature_of(map, map.objects[i], objects[i]));
   }
@@ -134,7 +154,7 @@ std::string flights_to_table(const FusedMap& map) {
                    flight.identity.flight, width, word_of(flight.verdict), flight.objects,
                    flight.shared_objects, with_sigma(error.x(), sigma.x()), with_sigma(error.y(), sigma.y()),
                    with_sigma(error.z(), sigma.z()), flight.chi2);
-    if (!flight.reason.empty()) table += "    " + flight.reason + "\n";
+    if (const std::string words = words_of(map, flight); !words.empty()) table += "    " + words + "\n";
   }
   return table;
 }

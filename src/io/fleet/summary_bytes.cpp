@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstring>
-#include <limits>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
+#include "byte_stream.hpp"
 #include "geoloc/io/fleet/summary_file.hpp"
+#include "part_bytes.hpp"
 #include "summary_checks.hpp"
 
 namespace geoloc::io {
@@ -16,52 +16,6 @@ constexpr std::string_view kMagic = "geolocFS";
 /// Magic, version, counts of objects, shared errors and pairs.
 constexpr std::size_t kHeadBytes = 8 + 4 * sizeof(std::uint32_t);
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
-
-static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "numbers are written as they lie in memory");
-static_assert(std::numeric_limits<double>::is_iec559);
-
-class ByteWriter {
- public:
-  template <typename Number>
-  void put(Number number) {
-    static_assert(std::is_arithmetic_v<Number>);
-    bytes_.append(reinterpret_cast<const char*>(&number), sizeof(number));
-  }
-  void put_text(const std::string& text) {
-    put(static_cast<std::uint8_t>(text.size()));
-    bytes_ += text;
-  }
-  void put_raw(std::string_view raw) { bytes_ += raw; }
-  std::string take() { return std::move(bytes_); }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  std::string bytes_;
-};
-
-class ByteReader {
- public:
-  ByteReader(std::string_view bytes, const std::string& name) : left_(bytes), name_(name) {}
-
-  template <typename Number>
-  Number take() {
-    Number number;
-    std::memcpy(&number, take_raw(sizeof(Number)).data(), sizeof(Number));
-    return number;
-  }
-  std::string take_text() { return std::string(take_raw(take<std::uint8_t>())); }
-  std::string_view take_raw(std::size_t size) {
-    if (size > left_.size()) refuse_summary(name_, "ends too early: it was cut off");
-    const std::string_view raw = left_.substr(0, size);
-    left_.remove_prefix(size);
-    return raw;
-  }
-  std::size_t left() const { return left_.size(); }
-
- private:
-  std::string_view left_;
-  const std::string& name_;
-};
 
 void put_object(const FlightSummary& summary, std::size_t i, ByteWriter& writer) {
   const FlightSummary::Object& object = summary.objects[i];
@@ -135,7 +89,7 @@ std::uint64_t summary_checksum(std::string_view bytes) {
 std::string summary_to_bytes(const FlightSummary& summary) {
   ByteWriter writer;
   writer.put_raw(kMagic);
-  writer.put(kSummaryVersion);
+  writer.put(version_of(summary));
   writer.put(static_cast<std::uint32_t>(summary.objects.size()));
   writer.put(static_cast<std::uint32_t>(summary.shared_count()));
   writer.put(static_cast<std::uint32_t>(summary.apart.size()));
@@ -151,6 +105,7 @@ std::string summary_to_bytes(const FlightSummary& summary) {
     writer.put(first);
     writer.put(second);
   }
+  if (summary.part) put_part(*summary.part, writer);
   writer.put(summary_checksum(writer.bytes()));
   return writer.take();
 }
@@ -159,7 +114,8 @@ FlightSummary summary_from_bytes(std::string_view bytes, const std::string& name
   if (bytes.substr(0, kMagic.size()) != kMagic) refuse_summary(name, "is not a flight summary");
   if (bytes.size() < kHeadBytes + kChecksumBytes) refuse_summary(name, "ends too early: it was cut off");
   ByteReader reader(bytes.substr(kMagic.size(), bytes.size() - kMagic.size() - kChecksumBytes), name);
-  refuse_other_version(name, reader.take<std::uint32_t>());
+  const auto version = reader.take<std::uint32_t>();
+  refuse_other_version(name, version);
   const auto objects = reader.take<std::uint32_t>(), shared = reader.take<std::uint32_t>(),
              apart = reader.take<std::uint32_t>();
   refuse_absurd_sizes(name, objects, shared, apart);
@@ -174,11 +130,12 @@ FlightSummary summary_from_bytes(std::string_view bytes, const std::string& name
   const auto home_height_msl_m = reader.take<double>();
   if (has_home > 1) refuse_summary(name, "tells neither that home's height is known nor that it is not");
   if (has_home == 1) summary.home_height_msl_m = home_height_msl_m;
-  if (reader.left() != objects * object_bytes(shared) + apart * std::size_t{8})
+  const std::size_t told = objects * object_bytes(shared) + apart * std::size_t{8};
+  if (version == kPlainVersion ? reader.left() != told : reader.left() < told)
     refuse_summary(name, "is not as long as its counts say: it was cut off or damaged");
   if (summary_checksum(bytes.substr(0, bytes.size() - kChecksumBytes)) !=
       ByteReader(bytes.substr(bytes.size() - kChecksumBytes), name).take<std::uint64_t>())
-    refuse_summary(name, "does not have its checksum: it was damaged");
+    refuse_summary(name, "does not have its checksum: it was cut off or damaged");
   summary.shared_error.resize(3 * static_cast<Eigen::Index>(objects), static_cast<Eigen::Index>(shared));
   summary.objects.reserve(objects);
   for (std::size_t i = 0; i < objects; ++i) summary.objects.push_back(take_object(i, summary, reader));
@@ -186,6 +143,7 @@ FlightSummary summary_from_bytes(std::string_view bytes, const std::string& name
     const auto first = reader.take<std::uint32_t>();
     summary.apart.emplace_back(first, reader.take<std::uint32_t>());
   }
+  if (version != kPlainVersion) summary.part = take_part(name, reader);
   refuse_problems(name, summary);
   return summary;
 }

@@ -16,11 +16,19 @@ namespace geoloc::io {
   throw std::runtime_error(name + ": " + reason);
 }
 
+/// Summaries of a flight that has no other parts are as they were before there were parts.
+inline constexpr std::uint32_t kPlainVersion = 1;
+
+inline std::uint32_t version_of(const FlightSummary& summary) {
+  return summary.part ? kSummaryVersion : kPlainVersion;
+}
+
 inline void refuse_other_version(const std::string& name, std::uint64_t version) {
-  if (version == kSummaryVersion) return;
+  if (version == kPlainVersion || version == kSummaryVersion) return;
   refuse_summary(name,
                  "is a flight summary of format version " + std::to_string(version) +
-                     "; this program reads version " + std::to_string(kSummaryVersion) +
+                     "; this program reads versions " + std::to_string(kPlainVersion) + " and " +
+                     std::to_string(kSummaryVersion) +
                      ". Replay the recording with --summary, or use the program's release that wrote it");
 }
 
@@ -36,6 +44,17 @@ inline void refuse_absurd_sizes(const std::string& name, std::size_t objects, st
   if (apart > FlightSummary::kMostApart * objects)
     refuse_summary(name, "tells of " + std::to_string(apart) + " pairs apart; at most " +
                              std::to_string(FlightSummary::kMostApart) + " per object are read");
+}
+
+/// The same of what a part of a flight tells.
+inline void refuse_absurd_part(const std::string& name, std::size_t unknowns, std::size_t shared) {
+  constexpr auto kMostErrors = static_cast<std::size_t>(FlightSummary::kMostShared) + kFlightUnknowns;
+  if (unknowns > kFlightUnknowns)
+    refuse_summary(name, "tells of " + std::to_string(unknowns) + " unknowns of its flight; there are " +
+                             std::to_string(kFlightUnknowns));
+  if (shared > kMostErrors)
+    refuse_summary(name, "tells of " + std::to_string(shared) + " errors of its flight's unknowns; at most " +
+                             std::to_string(kMostErrors) + " are read");
 }
 
 inline void refuse_problems(const std::string& name, const FlightSummary& summary) {

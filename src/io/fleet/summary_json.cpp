@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <type_traits>
 
 #include "geoloc/io/fleet/summary_file.hpp"
+#include "json_members.hpp"
+#include "part_json.hpp"
 #include "summary_checks.hpp"
 
 namespace geoloc::io {
 namespace {
 
-using nlohmann::json;
-using nlohmann::ordered_json;
-
 constexpr const char* kFormat = "geoloc flight summary";
-
-ordered_json row_to_json(const Eigen::Ref<const Eigen::RowVectorXd>& row) {
-  auto numbers = ordered_json::array();
-  for (Eigen::Index i = 0; i < row.size(); ++i) numbers.push_back(row[i]);
-  return numbers;
-}
 
 ordered_json object_to_json(const FlightSummary& summary, std::size_t i) {
   const FlightSummary::Object& object = summary.objects[i];
@@ -39,41 +30,6 @@ ordered_json object_to_json(const FlightSummary& summary, std::size_t i) {
           {"position_in_enu_m", row_to_json(object.position_in_enu.transpose())},
           {"own_covariance_m2", covariance},
           {"shared_error_m", shared}};
-}
-
-/// A member that must be there; a std::runtime_error names it.
-const json& member(const json& object, const char* key) {
-  if (!object.is_object()) throw std::runtime_error("must be an object");
-  const auto found = object.find(key);
-  if (found == object.end()) throw std::runtime_error(std::string(key) + " is missing");
-  return *found;
-}
-
-double number(const json& value, const char* what) {
-  if (!value.is_number()) throw std::runtime_error(std::string(what) + " must be a number");
-  return value.get<double>();
-}
-
-template <typename Whole>
-Whole whole(const json& value, const char* what) {
-  const bool fits =
-      value.is_number_unsigned()
-          ? value.get<std::uint64_t>() <= static_cast<std::uint64_t>(std::numeric_limits<Whole>::max())
-          : std::is_signed_v<Whole> && value.is_number_integer() &&
-                value.get<std::int64_t>() >= static_cast<std::int64_t>(std::numeric_limits<Whole>::min());
-  if (!fits) throw std::runtime_error(std::string(what) + " must be a whole number in its range");
-  return value.get<Whole>();
-}
-
-std::string text(const json& value, const char* what) {
-  if (!value.is_string()) throw std::runtime_error(std::string(what) + " must be a text");
-  return value.get<std::string>();
-}
-
-const json& list(const json& value, std::size_t size, const char* what) {
-  if (!value.is_array() || value.size() != size)
-    throw std::runtime_error(std::string(what) + " must be a list of " + std::to_string(size));
-  return value;
 }
 
 template <typename Matrix>
@@ -98,17 +54,13 @@ ClassVotes read_votes(const json& list_of_votes) {
   return ClassVotes(votes);
 }
 
-HostTime read_time(const json& value, const char* what) {
-  return HostTime{Duration{whole<std::int64_t>(value, what)}};
-}
-
 FlightSummary::Object read_object(const json& value, std::size_t i, FlightSummary& summary) {
   FlightSummary::Object object;
   object.id = whole<std::uint64_t>(member(value, "id"), "id");
   object.hits = whole<std::int32_t>(member(value, "hits"), "hits");
   object.existence = number(member(value, "existence"), "existence");
-  object.first_seen = read_time(member(value, "first_seen_ns"), "first_seen_ns");
-  object.last_seen = read_time(member(value, "last_seen_ns"), "last_seen_ns");
+  object.first_seen = time<HostTime>(value, "first_seen_ns");
+  object.last_seen = time<HostTime>(value, "last_seen_ns");
   object.class_votes = read_votes(member(value, "class_votes"));
   const json& position = list(member(value, "position_in_enu_m"), 3, "position_in_enu_m");
   for (std::size_t row = 0; row < 3; ++row)
@@ -133,7 +85,8 @@ std::size_t shared_count(const json& objects) {
 FlightSummary read_document(const json& document, const std::string& name) {
   if (text(member(document, "format"), "format") != kFormat)
     throw std::runtime_error(std::string("format must be \"") + kFormat + "\"");
-  refuse_other_version(name, whole<std::uint64_t>(member(document, "version"), "version"));
+  const auto version = whole<std::uint64_t>(member(document, "version"), "version");
+  refuse_other_version(name, version);
   const json& objects = member(document, "objects");
   const json& apart = member(document, "apart");
   if (!objects.is_array() || !apart.is_array()) throw std::runtime_error("objects and apart must be lists");
@@ -163,6 +116,7 @@ FlightSummary read_document(const json& document, const std::string& name) {
     summary.apart.emplace_back(whole<std::uint32_t>(places[0], "a place"),
                                whole<std::uint32_t>(places[1], "a place"));
   }
+  if (version != kPlainVersion) summary.part = part_from_json(name, member(document, "part"));
   return summary;
 }
 
@@ -174,9 +128,9 @@ std::string summary_to_json(const FlightSummary& summary) {
   for (const auto& [first, second] : summary.apart) apart.push_back({first, second});
   const ordered_json home =
       summary.home_height_msl_m ? ordered_json(*summary.home_height_msl_m) : ordered_json();
-  const ordered_json document{
+  ordered_json document{
       {"format", kFormat},
-      {"version", kSummaryVersion},
+      {"version", version_of(summary)},
       {"flight", summary.identity.flight},
       {"vehicle", summary.identity.vehicle},
       {"sequence", summary.identity.sequence},
@@ -185,6 +139,7 @@ std::string summary_to_json(const FlightSummary& summary) {
       {"home_height_msl_m", home},
       {"objects", objects},
       {"apart", apart}};
+  if (summary.part) document["part"] = part_to_json(*summary.part);
   return document.dump(1) + "\n";
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "fleet/divided_flight.hpp"
 #include "fleet/synthetic_fleet.hpp"
 
 namespace geoloc::io {
@@ -52,6 +53,19 @@ TEST(FusedReport, TheTableNamesTheQuarantinedFlightAndWhy) {
   const auto line = table.find("flight-02  quarantined");
   ASSERT_NE(line, std::string::npos) << table;
   EXPECT_NE(table.find("its objects lie", line), std::string::npos) << table;
+}
+
+TEST(FusedReport, PartsOfAFlightNameEachOther) {
+  std::mt19937 random(4);
+  const testing::DividedFlight flight(testing::clustered_targets(30, random), random);
+  Fleet fleet;
+  for (const FlightSummary& part : {flight.summary("a", 12), flight.summary("b", 0, 12)}) take(part, fleet);
+  const FusedMap map = fuse(fleet);
+  const auto json = nlohmann::json::parse(fused_to_geojson(map, report_objects(map, {})));
+  for (const auto& told : json["flights"]) EXPECT_EQ(told["parts"], (nlohmann::json{"b", "a"}));
+  EXPECT_NE(flights_to_table(map).find("one flight with its other parts: b, a"), std::string::npos);
+  const FusedMap other = fuse(fleet_with_a_poisoned_flight());
+  EXPECT_EQ(fused_to_geojson(other, report_objects(other, {})).find("parts"), std::string::npos);
 }
 
 TEST(FusedReport, FlightsAreReportedWithTheirObjectsWhereTheyHaveThem) {

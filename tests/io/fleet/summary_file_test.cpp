@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <utility>
 
+#include "fleet/divided_flight.hpp"
 #include "fleet/synthetic_fleet.hpp"
 #include "fuzz/hostile_summaries.hpp"
 #include "support/spoilt_bytes.hpp"
@@ -21,6 +24,15 @@ FlightSummary any_flight(std::size_t objects = 7) {
   FlightSummary summary =
       testing::draw_flight("flight-1", testing::clustered_targets(objects, random), {}, random);
   if (objects > 4) summary.apart = {{0, 1}, {2, 4}};
+  return summary;
+}
+
+/// With what makes it a part of a flight.
+FlightSummary any_part(std::size_t objects = 7) {
+  std::mt19937 random(6);
+  const testing::DividedFlight flight(testing::clustered_targets(objects, random), random);
+  FlightSummary summary = flight.summary("part-1", 4, 12);
+  summary.part->run.whole = "tuesday";
   return summary;
 }
 
@@ -43,7 +55,30 @@ std::string with_number(std::string bytes, std::size_t at, Number number) {
   return bytes;
 }
 
+void expect_same_part(const FlightSummary::Part& a, const FlightSummary::Part& b) {
+  EXPECT_EQ(a.run.whole, b.run.whole);
+  EXPECT_EQ(a.run.booted_at, b.run.booted_at);
+  EXPECT_EQ(a.run.ended_at, b.run.ended_at);
+  EXPECT_EQ(a.state.first_node_at, b.state.first_node_at);
+  EXPECT_EQ(a.state.last_node_at, b.state.last_node_at);
+  EXPECT_EQ(a.state.drift.position_time_constant_s, b.state.drift.position_time_constant_s);
+  EXPECT_EQ(a.state.drift.ripple_share, b.state.drift.ripple_share);
+  EXPECT_EQ(a.state.drift.ripple_time_constant_s, b.state.drift.ripple_time_constant_s);
+  EXPECT_EQ(a.state.drift.up_time_constant_s, b.state.drift.up_time_constant_s);
+  EXPECT_EQ(a.state.drift.yaw_time_constant_s, b.state.drift.yaw_time_constant_s);
+  EXPECT_EQ(a.state.shared_error, b.state.shared_error);
+  ASSERT_EQ(a.state.unknowns.size(), b.state.unknowns.size());
+  for (std::size_t i = 0; i < a.state.unknowns.size(); ++i) {
+    EXPECT_EQ(a.state.unknowns[i].which, b.state.unknowns[i].which);
+    EXPECT_EQ(a.state.unknowns[i].mean, b.state.unknowns[i].mean);
+    EXPECT_EQ(a.state.unknowns[i].prior_mean, b.state.unknowns[i].prior_mean);
+    EXPECT_EQ(a.state.unknowns[i].prior_sigma, b.state.unknowns[i].prior_sigma);
+  }
+}
+
 void expect_same(const FlightSummary& a, const FlightSummary& b) {
+  ASSERT_EQ(a.part.has_value(), b.part.has_value());
+  if (a.part) expect_same_part(*a.part, *b.part);
   EXPECT_EQ(a.identity.flight, b.identity.flight);
   EXPECT_EQ(a.identity.vehicle, b.identity.vehicle);
   EXPECT_EQ(a.identity.sequence, b.identity.sequence);
@@ -73,7 +108,8 @@ TEST(SummaryFile, EveryBitComesBackInEitherForm) {
   FlightSummary homeless = any_flight();
   homeless.home_height_msl_m.reset();
   homeless.identity.vehicle.clear();
-  for (const FlightSummary& summary : {any_flight(), any_flight(1), any_flight(0), homeless}) {
+  for (const FlightSummary& summary :
+       {any_flight(), any_flight(1), any_flight(0), homeless, any_part(), any_part(3)}) {
     expect_same(summary_from_bytes(summary_to_bytes(summary), "bytes"), summary);
     expect_same(summary_from_json(summary_to_json(summary), "JSON"), summary);
   }
@@ -102,10 +138,11 @@ TEST(SummaryFile, OneThatIsNotThereIsNamed) {
 }
 
 TEST(SummaryFile, AnyPieceThatIsMissingIsNoticed) {
-  const std::string whole = summary_to_bytes(any_flight());
-  for (std::size_t size = 0; size < whole.size(); ++size)
-    EXPECT_NE(fault_of(whole.substr(0, size)), "") << size;
-  EXPECT_NE(fault_of(whole + "x"), "");
+  for (const std::string& whole : {summary_to_bytes(any_flight()), summary_to_bytes(any_part())}) {
+    for (std::size_t size = 0; size < whole.size(); ++size)
+      EXPECT_NE(fault_of(whole.substr(0, size)), "") << size;
+    EXPECT_NE(fault_of(whole + "x"), "");
+  }
 }
 
 TEST(SummaryFile, AnyBitThatIsDamagedIsNoticed) {
@@ -121,9 +158,10 @@ TEST(SummaryFile, ReasonsAreNamed) {
   const std::string good = summary_to_bytes(any_flight());
   EXPECT_EQ(fault_of(""), "some file: is empty");
   EXPECT_EQ(fault_of("what is this, perhaps a picture?"), "some file: is not a flight summary");
-  EXPECT_NE(
-      fault_of(with_number(good, 8, std::uint32_t{2})).find("format version 2; this program reads version 1"),
-      std::string::npos);
+  EXPECT_NE(fault_of(with_number(good, 8, std::uint32_t{3}))
+                .find("format version 3; this program reads versions 1 and 2"),
+            std::string::npos);
+  EXPECT_NE(fault_of(with_number(good, 8, std::uint32_t{2})), "");  // the part is missing
   EXPECT_NE(fault_of(with_number(good, 12, std::uint32_t{30'000})).find("30000 objects"), std::string::npos);
   EXPECT_NE(fault_of(with_number(good, 16, std::uint32_t{600})).find("600 shared errors"), std::string::npos);
   EXPECT_NE(fault_of(with_number(good, 20, std::uint32_t{99'999})).find("99999 pairs apart"),
@@ -160,9 +198,72 @@ TEST(SummaryFile, FaultsOfJsonAreNamedByTheirPlace) {
   EXPECT_EQ(fault_of("{\"format\":"), "some file: is not JSON, or was cut off");
 }
 
+/// A program that knows of no parts reads what is none.
+TEST(SummaryFile, AFlightByItselfIsWrittenAsBeforeThereWereParts) {
+  std::uint32_t version = 0;
+  std::memcpy(&version, &summary_to_bytes(any_flight())[8], sizeof(version));
+  EXPECT_EQ(version, 1U);
+  std::memcpy(&version, &summary_to_bytes(any_part())[8], sizeof(version));
+  EXPECT_EQ(version, 2U);
+  EXPECT_EQ(nlohmann::json::parse(summary_to_json(any_flight()))["version"], 1);
+  EXPECT_EQ(nlohmann::json::parse(summary_to_json(any_part()))["version"], 2);
+}
+
+TEST(SummaryFile, FaultsOfAPartAreNamed) {
+  const auto fault = [](auto spoil) {
+    FlightSummary spoilt = any_part();
+    spoil(*spoilt.part);
+    const std::string of_bytes = fault_of(summary_to_bytes(spoilt));
+    return of_bytes;
+  };
+  const auto is_named = [](const std::string& fault, const char* reason) {
+    return fault.find(std::string("part of a flight: ") + reason) != std::string::npos;
+  };
+  using Part = FlightSummary::Part;
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.run.whole = "a b"; }), "the whole flight's name"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.run.booted_at = HostTime::max(); }), "its times"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.run.ended_at = VehicleTime::min(); }), "its times"));
+  EXPECT_TRUE(
+      is_named(fault([](Part& p) { std::swap(p.state.first_node_at, p.state.last_node_at); }), "its times"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.state.drift.ripple_share = 1.5; }), "the drift's"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.state.drift.yaw_time_constant_s = 0.0; }), "the drift's"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { std::swap(p.state.unknowns[0], p.state.unknowns[1]); }),
+                       "its unknowns must be in their order"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.state.unknowns.back().which = FlightUnknown{17}; }),
+                       "its unknowns must be in their order"));
+  EXPECT_TRUE(
+      is_named(fault([](Part& p) { p.state.unknowns[0].mean = std::nan(""); }), "its unknowns must be"));
+  EXPECT_TRUE(
+      is_named(fault([](Part& p) { p.state.unknowns[0].prior_sigma = 0.0; }), "its unknowns must be"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.state.shared_error(1, 1) = 1e7; }), "its unknowns must be"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.state.shared_error.row(1) = p.state.shared_error.row(2); }),
+                       "its unknowns' covariance"));
+  EXPECT_TRUE(is_named(fault([](Part& p) { p.state.shared_error.conservativeResize(Eigen::NoChange, 2); }),
+                       "its shared errors"));
+}
+
+TEST(SummaryFile, FaultsOfAPartInJsonAreNamed) {
+  const auto good = nlohmann::json::parse(summary_to_json(any_part()));
+  const auto fault = [&](auto spoil) {
+    auto spoilt = good;
+    spoil(spoilt["part"]);
+    return fault_of(spoilt.dump());
+  };
+  EXPECT_EQ(fault([](auto& part) { part.erase("drift"); }), "some file: drift is missing");
+  EXPECT_EQ(fault([](auto& part) { part["unknowns"] = 3; }), "some file: unknowns must be a list");
+  EXPECT_EQ(fault([](auto& part) { part["unknowns"][2]["name"] = "luck"; }),
+            "some file: there is no unknown by the name of luck");
+  EXPECT_NE(fault([](auto& part) { part["unknowns"][2]["shared_error"].erase(0); }).find("must be a list of"),
+            std::string::npos);
+  auto partless = good;
+  partless.erase("part");
+  EXPECT_EQ(fault_of(partless.dump()), "some file: part is missing");
+}
+
 TEST(SummaryFile, NothingHostileIsTaken) {
   std::mt19937 random(1);
-  for (const std::string& good : {summary_to_bytes(any_flight(3)), summary_to_json(any_flight(3))}) {
+  for (const std::string& good : {summary_to_bytes(any_flight(3)), summary_to_json(any_flight(3)),
+                                  summary_to_bytes(any_part(3)), summary_to_json(any_part(3))}) {
     hostile::read_any_summary(good);
     for (int i = 0; i < 2000; ++i) hostile::read_any_summary(testing::spoilt(good, random));
     const std::string unsealed = good.substr(0, good.size() - sizeof(std::uint64_t));

@@ -14,7 +14,8 @@
 // and what they return has no problems().
 namespace geoloc::io {
 
-inline constexpr std::uint32_t kSummaryVersion = 1;
+/// The newest; a summary that is no part of a flight is written as version 1.
+inline constexpr std::uint32_t kSummaryVersion = 2;
 
 /// The largest summary that is read, from a file or a message.
 inline constexpr std::size_t kMostSummaryBytes = std::size_t{256} << 20;

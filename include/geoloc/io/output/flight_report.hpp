@@ -15,7 +15,7 @@ struct FlightReport {
   std::string vehicle;
   std::uint64_t sequence = 0;
   std::string verdict;  ///< "fused", "quarantined" and so on
-  std::string reason;   ///< of all but "fused"
+  std::string reason;   ///< of all but "fused", and which other flights are parts of one with it
   /// Reported minus estimated, in common of all its objects: east, north, up [m].
   Eigen::Vector3d common_error_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d sigma_m = Eigen::Vector3d::Zero();
