@@ -18,7 +18,7 @@ using testing::expect_each_place_once;
 using testing::in_gusts;
 using testing::NadirFlight;
 
-constexpr double kStep_s = 40.0, kEarlyStep_s = 12.0, kEnd_s = 80.0;
+constexpr double kStep_s = 40.0, kEarlyStep_s = 20.0, kEnd_s = 80.0;
 
 const std::vector<Eigen::Vector2d> kPlaces{{-6, 2}, {4, 8}, {-3, 14}, {7, 20}, {0, 27}, {-7, 33}, {5, 38}};
 
@@ -72,6 +72,7 @@ TEST_P(CameraClock, ThatStepsSoonAfterTheStartLosesNoObject) {
   const std::vector<Track>& tracks = flight.geolocator().tracks();
   expect_each_place_once(kPlaces, tracks);
   EXPECT_GT(before.size(), 3U);
+  EXPECT_EQ(flight.geolocator().track_counters().latency_changes, 1U);
   for (const std::uint64_t id : before)
     EXPECT_TRUE(
         std::any_of(tracks.begin(), tracks.end(), [id](const Track& track) { return track.id == id; }));
