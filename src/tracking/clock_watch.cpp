@@ -33,7 +33,9 @@ constexpr std::size_t kLeastPlaces = 2;
 /// Frames are held for no longer; where nothing was found, none are for a while, longer each time.
 constexpr double kLongestHold_s = 12.0, kBackOff_s = 20.0;
 /// 1-sigma of a latency that was found.
-constexpr double kLeastSigma_s = 0.1;
+constexpr double kLeastSigma_s = 0.05;
+/// Between two frames that prove the latency together.
+constexpr double kLongestBetween_s = 2.0;
 /// What a frame is worth whose state is not known at a latency.
 constexpr double kUnknown = -10.0;
 /// So many of the held frames tell of a shift.
@@ -61,16 +63,15 @@ void ClockWatch::begin_anew() {
   held_.clear();
   quiet_until_.reset();
   told_at_.reset();
+  shown_.reset();
   back_off_s_ = kBackOff_s;
 }
 
 std::optional<LatencyPrior> ClockWatch::observe(FrameStamp stamp,
                                                 const std::vector<LocatedDetection>& detections,
-                                                const CalibratedViewer& viewer,
-                                                const WatchExpectation& expected) {
-  const double believed_s = viewer.errors.calibration.latency_s();
+                                                const PlaceFit& fit) {
+  const double believed_s = fit.believed_latency_s();
   const HostTime now = stamp.captured_at_host;
-  const PlaceFit fit(viewer, expected);
   const FrameBoxes frame(stamp, detections);
   weigh(frame, fit, believed_s);
   if (is_backing_off(now) || (!is_holding_ && doubt_ < kDoubtToHold)) return std::nullopt;
@@ -105,8 +106,18 @@ void ClockWatch::weigh(const FrameBoxes& frame, const PlaceFit& fit, double beli
   double evidence = strange * std::log1p(displaced / usually_strange) - displaced - tally->likelihood;
   if (strange == 0 || !fit.could_tell_latency(frame, believed_s, places_)) evidence = std::min(evidence, 0.0);
   doubt_ = std::clamp(doubt_ + evidence, 0.0, kMostDoubt);
-  is_proven_ = !is_holding_ && !is_in_doubt() && tally->seen > 0 && tally->seen >= tally->missed &&
-               fit.tells_latency(frame, believed_s, places_);
+  const bool shows = !is_holding_ && !is_in_doubt() && tally->seen > 0 && tally->seen >= tally->missed &&
+                     fit.tells_latency(frame, believed_s, places_);
+  is_proven_ = shows && is_shown_again(frame.stamp.captured_at_host);
+  if (is_in_doubt()) shown_.reset();
+}
+
+/// One frame may show other objects in the known places by chance: a clock that stepped shows neighbours
+/// there.
+bool ClockWatch::is_shown_again(HostTime now) {
+  if (!shown_ || seconds(now - shown_->last) > kLongestBetween_s) shown_ = Shown{now, now};
+  shown_->last = now;
+  return seconds(now - shown_->first) >= kIndependent_s;
 }
 
 /// None of the places that were known when the doubt began is to be seen any more: it would last for ever.
@@ -145,10 +156,11 @@ bool ClockWatch::add_score(std::size_t frame, double latency_s, double step_s, c
   if (!tally) return false;
   score.by_places += tally->likelihood;
   ++score.frames;
-  const auto earlier = frames_to_compare(
-      held_[frame], frame, [&](std::size_t n) -> const FrameBoxes& { return held_[frame - n]; });
+  const auto time_of = [this](std::size_t n) { return held_[n].stamp.captured_at_host; };
+  const auto earlier =
+      frames_to_compare(time_of(frame), frame, [&](std::size_t n) { return time_of(frame - n); });
   if (!earlier) return true;
-  const auto pair = fit.tally_of_pair(held_[frame - *earlier], held_[frame], latency_s, step_s);
+  const auto pair = fit.tally_of_pair(held_[frame - *earlier], held_[frame], {latency_s, latency_s}, step_s);
   if (pair) score.by_pairs += pair->likelihood;
   return true;
 }

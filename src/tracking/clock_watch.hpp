@@ -31,7 +31,7 @@ class ClockWatch {
   /// A new frame. The latency since it, or since an earlier frame that is held, where that is found to be
   /// another one.
   std::optional<LatencyPrior> observe(FrameStamp stamp, const std::vector<LocatedDetection>& detections,
-                                      const CalibratedViewer& viewer, const WatchExpectation& expected);
+                                      const PlaceFit& fit);
 
   /// Whether the frame is to be held back, with all since the first one that was.
   bool holds() const { return is_holding_; }
@@ -48,6 +48,7 @@ class ClockWatch {
   using Score = LatencyScores::Score;
 
   void weigh(const FrameBoxes& frame, const PlaceFit& fit, double believed_s);
+  bool is_shown_again(HostTime now);
   bool is_forgotten(HostTime now) const;
   bool is_backing_off(HostTime now);
   void hold(const FrameBoxes& frame);
@@ -74,6 +75,10 @@ class ClockWatch {
   LatencyScores scores_;
   std::optional<HostTime> quiet_until_;
   std::optional<HostTime> told_at_;  // the last frame that should show one of the places
+  struct Shown {
+    HostTime first, last;
+  };
+  std::optional<Shown> shown_;  // the frames in a row that show known objects in place
   double back_off_s_;
   std::array<double, kMostShifts> east_m_{}, north_m_{};  // scratch of likely_shift
 };

@@ -27,21 +27,26 @@ struct FrameBoxes {
   FrameBoxes() = default;
   FrameBoxes(FrameStamp frame_stamp, const std::vector<LocatedDetection>& detections,
              std::size_t most = kMost)
-      : stamp(frame_stamp), count(std::min(detections.size(), most)) {
-    if (count < detections.size())
-      share = static_cast<double>(count) / static_cast<double>(detections.size());
-    for (std::size_t i = 0; i < count; ++i) pixels[i] = detections[i].detection.box.centre();
+      : FrameBoxes(frame_stamp, detections.size(), most,
+                   [&](std::size_t i) { return detections[i].detection.box.centre(); }) {}
+
+  /// Of so many boxes, whose centres are centre(0), centre(1)...
+  template <typename Centre>
+  FrameBoxes(FrameStamp frame_stamp, std::size_t boxes, std::size_t most, const Centre& centre)
+      : stamp(frame_stamp), count(std::min(boxes, most)) {
+    if (count < boxes) share = static_cast<double>(count) / static_cast<double>(boxes);
+    for (std::size_t i = 0; i < count; ++i) pixels[i] = centre(i);
   }
 };
 
-/// How many frames before it the one lies that a frame is to be compared with: long enough to turn, short
-/// enough to show the same. `before(n)`: the frame n before it; there are so many. nullopt: none is suited.
+/// How many frames before it the one lies that a frame of that time is to be compared with: long enough to
+/// turn, short enough to show the same. `before(n)`: the time of the frame n before it; there are so many.
+/// nullopt: none is suited.
 template <typename Before>
-std::optional<std::size_t> frames_to_compare(const FrameBoxes& frame, std::size_t earlier,
-                                             const Before& before) {
+std::optional<std::size_t> frames_to_compare(HostTime frame, std::size_t earlier, const Before& before) {
   constexpr double kLeastApart_s = 0.5, kMostApart_s = 1.2;
   for (std::size_t n = 1; n <= earlier; ++n) {
-    const double apart_s = seconds(frame.stamp.captured_at_host - before(n).stamp.captured_at_host);
+    const double apart_s = seconds(frame - before(n));
     if (apart_s > kMostApart_s) return std::nullopt;
     if (apart_s >= kLeastApart_s) return n;
   }

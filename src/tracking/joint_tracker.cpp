@@ -50,6 +50,13 @@ constexpr double kOnTheGround = 0.1;
 /// So often the flight's first looks are explained anew, each time with twice the noise of the attitude.
 constexpr int kMostFalseStarts = 2;
 
+/// By what the present latency must explain the flight's earlier frames better than another one that was
+/// found for the newest, in log likelihood, for the clock to have stepped in between.
+constexpr double kLeastLeadOfStep = 10.0;
+
+/// 1-sigma of a latency that the flight's looks have told.
+constexpr double kSigmaOfToldLatency_s = 0.03;
+
 /// 1-sigma of a latency that was found by how the vehicle turned between frames.
 constexpr double kSigmaOfFoundLatency_s = 0.1;
 
@@ -159,9 +166,12 @@ void JointTracker::update(const LocatedFrame& located) {
     watch_clock(located);
     process_in_turn(located);
   } else {
+    waiting_.make_room();
+    waiting_.add(located, false);
+    waiting_.count_newest_as_used();
     process(located);
-    watch_start(located);
     proven_at_ = located.view.vehicle.time;
+    watch_start(located);
   }
   publish(located.projector, kSleepersPerFrame);
 }
@@ -282,27 +292,62 @@ bool JointTracker::is_clock_watched() const {
 /// certainty.
 void JointTracker::watch_start(const LocatedFrame& located) {
   if (!(config_.prior.sigma_latency_s > 0.0)) return;
-  const auto latency_s =
-      latency_watch_.observe(located.stamp, located.detections,
-                             {located.viewer, located.projector, errors_, true, located.view.terrain_m});
-  if (latency_s) begin_anew({*latency_s, kSigmaOfFoundLatency_s});
+  const auto found = latency_by_turning(located, true);
+  if (!found) {
+    if (errors_.calibration.sigma(Index::kLatency) < kSigmaOfToldLatency_s) latency_watch_.end_start();
+    return;
+  }
+  clock_watch_.places().clear();  // they were seen with the latency in question
+  const ChangeOfLatency change = change_to(*found, located);
+  if (change.lead < kLeastLeadOfStep) return begin_anew(*found);
+  latency_watch_.end_start();
+  go_on_with_latency(*found, change, located);
 }
 
-/// The same in mid-flight, where a clock has stepped.
-void JointTracker::watch_clock(const LocatedFrame& located) {
+std::optional<LatencyPrior> JointTracker::latency_by_turning(const LocatedFrame& located, bool is_start) {
+  const auto latency_s =
+      latency_watch_.observe(located.stamp, located.detections,
+                             {located.viewer, located.projector, errors_, is_start, located.view.terrain_m});
+  if (!latency_s) return std::nullopt;
+  return LatencyPrior{*latency_s, kSigmaOfFoundLatency_s};
+}
+
+CalibratedViewer JointTracker::viewer_of(const LocatedFrame& located) const {
+  return {located.viewer, located.projector, errors_, false, located.view.terrain_m};
+}
+
+WatchExpectation JointTracker::expected_of(const LocatedFrame& located) const {
   const double sigma_attitude_rad = std::sqrt(errors_.noise.attitude_variance_rad2());
   const double wandering_m =
       std::hypot(errors_.drift.position_scale() * errors_.accuracy.wandering_sigma_m(),
                  sigma_attitude_rad * height_above_plane_m(located.projector, located.view));
+  return {detection_rate_.probability(), clutter_rate_.per_frame(), config_.sigma_px, sigma_attitude_rad,
+          wandering_m};
+}
+
+ChangeOfLatency JointTracker::change_to(const LatencyPrior& latency, const LocatedFrame& located) {
+  const CalibratedViewer viewer = viewer_of(located);
+  const WatchExpectation expected = expected_of(located);
+  return find_change(waiting_, {errors_.calibration.latency_s(), latency.latency_s},
+                     PlaceFit(viewer, expected), clock_watch_.places());
+}
+
+/// The same in mid-flight, where a clock has stepped. While frames are held, known objects tell more than
+/// pairs of frames, some of which lie on either side of the step.
+void JointTracker::watch_clock(const LocatedFrame& located) {
   if (!clock_watch_.is_in_doubt())
     list_places(tracks_, errors_, config_.drift, located, proven_at_, clock_watch_.places());
-  const auto latency =
-      clock_watch_.observe(located.stamp, located.detections,
-                           {located.viewer, located.projector, errors_, false, located.view.terrain_m},
-                           {detection_rate_.probability(), clutter_rate_.per_frame(), config_.sigma_px,
-                            sigma_attitude_rad, wandering_m});
+  const CalibratedViewer viewer = viewer_of(located);
+  const WatchExpectation expected = expected_of(located);
+  const auto by_places = clock_watch_.observe(located.stamp, located.detections, PlaceFit(viewer, expected));
+  const auto by_turning = latency_by_turning(located, false);
   if (clock_watch_.proves()) proven_at_ = located.view.vehicle.time;
-  if (latency) go_on_with_latency(*latency, located);
+  if (by_places) {
+    go_on_with_latency(*by_places, change_to(*by_places, located), located);
+  } else if (by_turning && !clock_watch_.holds()) {
+    clock_watch_.begin_anew();
+    go_on_with_latency(*by_turning, change_to(*by_turning, located), located);
+  }
 }
 
 /// What was seen with a wrong latency from the flight's start on is worth nothing.
@@ -312,6 +357,7 @@ void JointTracker::begin_anew(const LatencyPrior& latency) {
   forget_flight();
   errors_.begin_latency(latency);
   latency_watch_.begin_anew();
+  waiting_.drop_used();
 }
 
 /// Attitudes far noisier than expected pull the first height down to the ground, where no look contradicts
@@ -341,10 +387,21 @@ void JointTracker::forget_flight() {
   schedule_ = SolutionSchedule(config_.solve_period_s);
 }
 
-/// What was known when the latency was last proven stays known. The frames since are used anew: without
-/// their looks, and without what was begun since.
-void JointTracker::go_on_with_latency(const LatencyPrior& latency, const LocatedFrame& frame) {
+/// Between the last frame of the present latency and the first one of another.
+VehicleTime JointTracker::end_of_latency(std::size_t first_changed, const LocatedFrame& newest) const {
+  const VehicleTime last = waiting_.stamp(first_changed - 1).captured_at;
+  const VehicleTime next =
+      (first_changed < waiting_.size() ? waiting_.stamp(first_changed) : newest.stamp).captured_at;
+  return last + (next - last) / 2 - from_seconds(errors_.calibration.latency_s());
+}
+
+/// What was known before the latency changed stays known. The frames since are used anew: without their
+/// looks, and without what was begun since. Those that may be of either latency are left out.
+void JointTracker::go_on_with_latency(const LatencyPrior& latency, const ChangeOfLatency& change,
+                                      const LocatedFrame& frame) {
   ++book_.counters.latency_changes;
+  while (waiting_.used() < change.first_possible) process_next(frame);
+  if (change.first_possible > 0) proven_at_ = end_of_latency(change.first_possible, frame);
   for (std::size_t row = tracks_.size(); row-- > 0;) {
     if (tracks_[row].sums_since > proven_at_) remove(row);
   }
@@ -371,7 +428,7 @@ void JointTracker::go_on_with_latency(const LatencyPrior& latency, const Located
   const NodeSpan newest{errors_.drift.end() - 2, 0.0};
   for (RestingObject& track : tracks_) refresh(track, errors_, newest);
   recent_looks_.clear();
-  waiting_.use_again();
+  waiting_.use_again_from(change.first_certain);
   schedule_ = SolutionSchedule(config_.solve_period_s);
 }
 

@@ -14,6 +14,7 @@
 #include "tracking/detection_rate.hpp"
 #include "tracking/joint_frame.hpp"
 #include "tracking/known_point_matcher.hpp"
+#include "tracking/latency_change.hpp"
 #include "tracking/latency_watch.hpp"
 #include "tracking/look_maker.hpp"
 #include "tracking/look_matcher.hpp"
@@ -64,6 +65,9 @@ class JointTracker final : public Tracker {
   void process_in_turn(const LocatedFrame& located);
   void process_next(const LocatedFrame& newest);
   bool is_clock_watched() const;
+  CalibratedViewer viewer_of(const LocatedFrame& located) const;
+  ChangeOfLatency change_to(const LatencyPrior& latency, const LocatedFrame& located);
+  WatchExpectation expected_of(const LocatedFrame& located) const;
   void watch_clock(const LocatedFrame& located);
   void measure_height(const LocatedFrame& located, const NodeSpan& now);
   void bound_height(const Projector& projector, const FrameView& view);
@@ -83,11 +87,14 @@ class JointTracker final : public Tracker {
   void remove_improbable();
   void remove(std::size_t row);
   void watch_start(const LocatedFrame& located);
+  std::optional<LatencyPrior> latency_by_turning(const LocatedFrame& located, bool is_start);
   void begin_anew(const LatencyPrior& latency);
   bool is_false_start(const LocatedFrame& located) const;
   void start_over();
   void forget_flight();
-  void go_on_with_latency(const LatencyPrior& latency, const LocatedFrame& frame);
+  VehicleTime end_of_latency(std::size_t first_changed, const LocatedFrame& newest) const;
+  void go_on_with_latency(const LatencyPrior& latency, const ChangeOfLatency& change,
+                          const LocatedFrame& frame);
   void refine(const LocatedFrame& located, const JointFrame& frame, const FrameNoise& noise);
   std::optional<Solution> solve(const LocatedFrame& located, const JointFrame& frame);
   void learn_wandering(const Solution& solution);

@@ -27,6 +27,8 @@ constexpr double kHopeless_px2 = 80.0, kFarBetter = 0.25;
 
 /// A flight's first pairs of frames after which a search is due.
 constexpr std::array<int, 12> kDue{12, 20, 30, 40, 50, 60, 80, 100, 120, 150, 180, 220};
+/// And later on.
+constexpr int kDueEvery = 30;
 
 bool is_well_inside(const Eigen::Vector2d& pixel, double margin_px, const CameraIntrinsics& image) {
   return pixel.x() > margin_px && pixel.x() < image.width_px - margin_px && pixel.y() > margin_px &&
@@ -44,31 +46,38 @@ std::size_t LatencyWatch::take_room(LatencyWatch* self) {
 }
 
 bool LatencyWatch::is_at_start() const {
-  return pairs_ <= kDue.back();
+  return pairs_ <= kDue.back() && !is_over_;
 }
 
 void LatencyWatch::begin_anew() {
   size_ = 0;
   pairs_ = 0;
+  is_over_ = false;
 }
 
 std::optional<double> LatencyWatch::observe(FrameStamp stamp, const std::vector<LocatedDetection>& detections,
                                             const CalibratedViewer& viewer) {
-  if (detections.empty() || !is_at_start()) return std::nullopt;
+  if (detections.empty()) return std::nullopt;
   frames_[next_] = FrameBoxes(stamp, detections, kMostBoxes);
   next_ = (next_ + 1) % kFrames;
   size_ = std::min(size_ + 1, kFrames);
   if (distance_of_pair(0, viewer.errors.calibration.latency_s(), viewer).looks == 0) return std::nullopt;
   ++pairs_;
-  if (std::find(kDue.begin(), kDue.end(), pairs_) == kDue.end()) return std::nullopt;
+  if (!is_due()) return std::nullopt;
   return search(viewer);
+}
+
+bool LatencyWatch::is_due() const {
+  if (pairs_ > kDue.back()) return (pairs_ - kDue.back()) % kDueEvery == 0;
+  return std::find(kDue.begin(), kDue.end(), pairs_) != kDue.end();
 }
 
 LatencyWatch::Distance LatencyWatch::distance_of_pair(std::size_t age, double latency_s,
                                                       const CalibratedViewer& viewer) const {
   const FrameBoxes& now = frame(age);
-  const auto earlier = frames_to_compare(now, size_ - 1 - age,
-                                         [&](std::size_t n) -> const FrameBoxes& { return frame(age + n); });
+  const auto earlier = frames_to_compare(now.stamp.captured_at_host, size_ - 1 - age, [&](std::size_t n) {
+    return frame(age + n).stamp.captured_at_host;
+  });
   if (!earlier) return {};
   const FrameBoxes& before = frame(age + *earlier);
   const Projector& projector = viewer.projector;

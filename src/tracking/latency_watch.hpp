@@ -11,7 +11,7 @@
 
 namespace geoloc {
 
-/// Finds out at a flight's start whether frames are stamped with another latency than they are taken to be.
+/// Finds out whether frames are stamped with another latency than they are taken to be.
 /// Nothing need be known of the ground for it: what one frame shows, the next one shows too, moved by how the
 /// vehicle turned in between; and a vehicle in wind turns differently a third of a second later. (The same is
 /// done to align a camera's clock with a gyroscope's.) Does not allocate after construction.
@@ -22,12 +22,16 @@ class LatencyWatch {
   static std::size_t take_room(LatencyWatch* self);
 
   /// A frame, and what is believed of the latency. The latency that explains the last frames far better,
-  /// where there is one: the flight began with another than expected.
+  /// where there is one. At the start that is mostly the latency of the whole flight.
   std::optional<double> observe(FrameStamp stamp, const std::vector<LocatedDetection>& detections,
                                 const CalibratedViewer& viewer);
 
   /// Whether so little has been seen yet that a latency found is that of the flight from its beginning on.
   bool is_at_start() const;
+
+  /// What has been seen tells the latency: another one that is found from now on is that of a clock that has
+  /// stepped.
+  void end_start() { is_over_ = true; }
 
   /// The flight begins anew.
   void begin_anew();
@@ -59,6 +63,7 @@ class LatencyWatch {
   class Grid;
 
   const FrameBoxes& frame(std::size_t age) const { return frames_[(next_ + kFrames - 1 - age) % kFrames]; }
+  bool is_due() const;
   Distance distance_of_pair(std::size_t age, double latency_s, const CalibratedViewer& viewer) const;
   std::size_t newest_known(double latency_s, const CalibratedViewer& viewer) const;
   Distance distance(double latency_s, const CalibratedViewer& viewer, std::size_t least_age = 0) const;
@@ -71,6 +76,7 @@ class LatencyWatch {
   std::size_t next_ = 0;
   std::size_t size_ = 0;
   int pairs_ = 0;  // since the start
+  bool is_over_ = false;
 };
 
 }  // namespace geoloc

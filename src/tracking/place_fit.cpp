@@ -62,8 +62,9 @@ std::optional<PlaceFit::Tally> PlaceFit::tally(const FrameBoxes& frame, double l
 }
 
 std::optional<PlaceFit::Tally> PlaceFit::tally_of_pair(const FrameBoxes& before, const FrameBoxes& now,
-                                                       double latency_s, double step_s) const {
-  const auto view_before = viewer_.at(before.stamp, latency_s), view_now = viewer_.at(now.stamp, latency_s);
+                                                       const LatencyOfPair& latency, double step_s) const {
+  const auto view_before = viewer_.at(before.stamp, latency.before_s);
+  const auto view_now = viewer_.at(now.stamp, latency.now_s);
   if (!view_before || !view_now) return std::nullopt;
   const double ground_m = viewer_.projector.config().ground_height_above_home_m;
   std::array<WatchedPlace, FrameBoxes::kMost> places;

@@ -41,6 +41,10 @@ class PlaceFit {
     double likelihood = 0.0;
   };
   using SeenPlaces = std::bitset<64>;
+  struct LatencyOfPair {
+    double before_s;
+    double now_s;
+  };
 
   PlaceFit(const CalibratedViewer& viewer, const WatchExpectation& expected)
       : viewer_(viewer), expected_(expected) {}
@@ -54,8 +58,8 @@ class PlaceFit {
 
   /// What an earlier frame's boxes say: what it shows of the ground, the later one should show as well.
   /// Nothing need be known of the ground for that, but the vehicle must turn or tilt in between.
-  std::optional<Tally> tally_of_pair(const FrameBoxes& before, const FrameBoxes& now, double latency_s,
-                                     double step_s) const;
+  std::optional<Tally> tally_of_pair(const FrameBoxes& before, const FrameBoxes& now,
+                                     const LatencyOfPair& latency, double step_s) const;
 
   /// Boxes that no place explains, known or not.
   int strange_boxes(const FrameBoxes& frame, double latency_s, const std::vector<WatchedPlace>& places) const;
@@ -76,6 +80,7 @@ class PlaceFit {
                       const Use& use) const;
 
   const WatchExpectation& expected() const { return expected_; }
+  double believed_latency_s() const { return viewer_.errors.calibration.latency_s(); }
 
   /// Probability that an object in view has one of these boxes.
   double found_in(const FrameBoxes& frame) const { return expected_.found * frame.share; }

@@ -8,8 +8,7 @@
 namespace geoloc {
 namespace {
 
-/// Fifty seconds at ten frames a second, and fifteen detections in each.
-constexpr std::size_t kFramesWaiting = 512;
+/// Fifteen detections in each frame.
 constexpr std::size_t kFullFrames = 32;
 constexpr std::size_t kLeastDetections = 8000;
 
@@ -20,7 +19,7 @@ WaitingFrames::WaitingFrames(int max_detections) : max_detections_(static_cast<s
 }
 
 std::size_t WaitingFrames::take_room(WaitingFrames* self, std::size_t max_detections) {
-  return room::resize(self, &WaitingFrames::entries_, kFramesWaiting) +
+  return room::resize(self, &WaitingFrames::entries_, kMost) +
          room::resize(self, &WaitingFrames::detections_,
                       std::max(kLeastDetections, kFullFrames * max_detections)) +
          room::reserve(self, &WaitingFrames::located_, max_detections);
@@ -70,8 +69,21 @@ std::optional<LocatedFrame> WaitingFrames::use_next(const LocatedFrame& newest,
                       next.stamp, newest.viewer,    newest.ground, next.range_m};
 }
 
+FrameBoxes WaitingFrames::boxes(std::size_t i) const {
+  const Entry& frame = entry(i);
+  return {frame.stamp, frame.detections, FrameBoxes::kMost,
+          [&](std::size_t k) { return detections_[(frame.begin + k) % detections_.size()].box.centre(); }};
+}
+
+void WaitingFrames::use_again_from(std::size_t first) {
+  used_ = first;
+  held_ = 0;
+  drop_used();
+}
+
 void WaitingFrames::drop_oldest() {
   detection_count_ -= entry(0).detections;
+  left_at_ = entry(0).stamp.captured_at_host;
   begin_ = (begin_ + 1) % entries_.size();
   --count_;
   --used_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tracking/calibrated_viewer.hpp"
+#include "tracking/frame_boxes.hpp"
 #include "tracking/tracker.hpp"
 
 namespace geoloc {
@@ -14,9 +15,19 @@ namespace geoloc {
 /// is. In order; does not allocate after construction.
 class WaitingFrames {
  public:
+  static constexpr std::size_t kMost = 512;  ///< fifty seconds at ten frames a second
+
   explicit WaitingFrames(int max_detections);
   /// geometry/room.hpp
   static std::size_t take_room(WaitingFrames* self, std::size_t max_detections);
+
+  std::size_t size() const { return count_; }
+  /// The first ones, that have been used already.
+  std::size_t used() const { return used_; }
+  const FrameStamp& stamp(std::size_t i) const { return entry(i).stamp; }
+  FrameBoxes boxes(std::size_t i) const;
+  /// The stamp of the last frame that is here no more.
+  std::optional<HostTime> left_at() const { return left_at_; }
 
   /// Makes room for one more: of those used, the oldest goes. False where all wait.
   bool make_room();
@@ -40,11 +51,8 @@ class WaitingFrames {
   /// Those used are proven.
   void drop_used();
 
-  /// All were used with a wrong latency, and wait again.
-  void use_again() {
-    used_ = 0;
-    held_ = 0;
-  }
+  /// All from that one on wait again: they were used with a wrong latency. Those before it are dropped.
+  void use_again_from(std::size_t first);
 
  private:
   struct Entry {
@@ -60,6 +68,7 @@ class WaitingFrames {
   std::vector<Entry> entries_;  // a ring
   std::size_t begin_ = 0;
   std::size_t count_ = 0;
+  std::optional<HostTime> left_at_;
   std::size_t used_ = 0;               // the first ones
   std::size_t held_ = 0;               // the last ones
   std::vector<Detection> detections_;  // a ring: those of all entries
