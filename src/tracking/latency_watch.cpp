@@ -49,6 +49,10 @@ bool LatencyWatch::is_at_start() const {
   return pairs_ <= kDue.back() && !is_over_;
 }
 
+void LatencyWatch::end_start() {
+  is_over_ = pairs_ >= kDue.front();
+}
+
 void LatencyWatch::begin_anew() {
   size_ = 0;
   pairs_ = 0;

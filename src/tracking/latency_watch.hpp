@@ -30,8 +30,9 @@ class LatencyWatch {
   bool is_at_start() const;
 
   /// What has been seen tells the latency: another one that is found from now on is that of a clock that has
-  /// stepped.
-  void end_start() { is_over_ = true; }
+  /// stepped. Without effect while there were too few pairs of frames to look for one, as in stills that lie
+  /// seconds apart.
+  void end_start();
 
   /// The flight begins anew.
   void begin_anew();
