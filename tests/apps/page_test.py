@@ -100,9 +100,8 @@ class LivePage(BrowserTest):
             self.assertTrue(any(tile_of(feature, zoom) == (zoom, x, y) for zoom, x, y in asked), feature)
 
     def finds_colour(self, page, selector, colour):
-        """Waits until it is drawn: the page follows the run."""
-        page.wait_for_function(f"(what) => ({FIND_COLOUR})(what) !== null", arg=[selector, colour])
-        return page.evaluate(FIND_COLOUR, [selector, colour])
+        """Waits until it is drawn: the page follows the run. One look, since the next frame may be half drawn."""
+        return page.wait_for_function(FIND_COLOUR, arg=[selector, colour]).json_value()
 
     def check_state(self, page):
         page.wait_for_selector("#light-link:not(.bad)")
