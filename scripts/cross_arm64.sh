@@ -28,10 +28,7 @@ build_estimators() {
 build_in build/native
 build_estimators "" build/native
 
-if ! dpkg --print-foreign-architectures | grep -qx arm64; then
-  dpkg --add-architecture arm64
-  apt-get update -q >/dev/null
-fi
+add_arm64
 install_packages g++-aarch64-linux-gnu libgeographiclib-dev:arm64 qemu-user-static  # takes the place of this processor's
 build_in build/arm64 -DCMAKE_TOOLCHAIN_FILE="$ROOT/cmake/aarch64-linux-gnu.cmake"
 build_estimators aarch64-linux-gnu- build/arm64

@@ -52,6 +52,13 @@ install_packages() {
     { tail -n 20 "$ROOT/build/apt.log" >&2; echo "apt-get failed; all of it is in build/apt.log" >&2; return 1; }
 }
 
+# add_arm64: makes packages for 64-bit Arm installable beside this processor's, as root.
+add_arm64() {
+  ! dpkg --print-foreign-architectures | grep -qx arm64 || return 0
+  dpkg --add-architecture arm64
+  apt-get update -q >/dev/null
+}
+
 # count_in_log START: the lines of apt's log that start so.
 count_in_log() { grep -c "^$1" "$ROOT/build/apt.log" || true; }  # grep fails where it counts none
 

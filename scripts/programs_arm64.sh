@@ -22,10 +22,7 @@ native=$PWD/build/native-programs/bin picture=tests/data/detection/targets.jpg
 "$native/geoloc_replay" "$work/recording" --csv "$work/native.csv" >/dev/null
 "$native/geoloc_detect" "$picture" --json - >"$work/native_boxes.txt"
 
-if ! dpkg --print-foreign-architectures | grep -qx arm64; then
-  dpkg --add-architecture arm64
-  apt-get update -q >/dev/null
-fi
+add_arm64
 # Those of Arm take the place of this processor's where both have the same files.
 mapfile -t of_arm < <(printf '%s:arm64\n' "${BUILD_PACKAGES[@]}" "${GDAL_PACKAGES[@]}" | grep '^lib.*-dev:' | grep -vE '^lib(eigen3|cli11|boost)-dev:')
 install_packages g++-aarch64-linux-gnu dpkg-dev file "${of_arm[@]}"

@@ -17,10 +17,7 @@ bash scripts/wheels.sh
 native=$(ls out/wheels/geoloc-*x86_64.whl)
 python3 -m zipfile -e "$native" "$work/native"
 
-if ! dpkg --print-foreign-architectures | grep -qx arm64; then
-  dpkg --add-architecture arm64
-  apt-get update -q >/dev/null
-fi
+add_arm64
 # GeographicLib's takes the place of this processor's; Python's headers stand beside them.
 install_packages g++-aarch64-linux-gnu libgeographiclib-dev:arm64 "libpython$version-dev:arm64" qemu-user-static
 

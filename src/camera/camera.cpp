@@ -15,8 +15,6 @@
 namespace geoloc {
 namespace {
 
-using Coefficients = DistortionCoefficients;
-
 Eigen::Matrix2d jacobian_of(const Distorted<double>& there) {
   Eigen::Matrix2d jacobian;
   jacobian << there.x_by_x, there.x_by_y,  //
@@ -37,8 +35,8 @@ ImageRay by_pixel(ImageRay ray, const CameraIntrinsics& intrinsics) {
 
 /// Newton from the distorted point; nullopt where it does not settle or leaves the invertible disc. The
 /// Jacobian is that of undistorted by distorted coordinates.
-std::optional<ImageRay> undistort(const Eigen::Vector2d& distorted, const Coefficients& coefficients,
-                                  double max_radius_squared) {
+std::optional<ImageRay> undistort(const Eigen::Vector2d& distorted,
+                                  const DistortionCoefficients& coefficients, double max_radius_squared) {
   Eigen::Vector2d estimate = distorted;
   for (int step = 0; step < Undistortion::kMaxSteps; ++step) {
     const Distorted<double> there = distort(estimate.x(), estimate.y(), coefficients);
@@ -54,7 +52,7 @@ std::optional<ImageRay> undistort(const Eigen::Vector2d& distorted, const Coeffi
   return std::nullopt;
 }
 
-bool has_distortion(const Coefficients& coefficients) {
+bool has_distortion(const DistortionCoefficients& coefficients) {
   for (const double value : coefficients) {
     if (value != 0.0) return true;
   }
@@ -62,7 +60,7 @@ bool has_distortion(const Coefficients& coefficients) {
 }
 
 /// The radius at which the radial model stops growing: beyond it a pixel would have two bearings.
-double monotonic_radius_squared(const Coefficients& coefficients) {
+double monotonic_radius_squared(const DistortionCoefficients& coefficients) {
   if (!has_distortion(coefficients)) return std::numeric_limits<double>::infinity();
   const auto [k1, k2, p1, p2, k3] = coefficients;
   constexpr double kStep = 0.01;

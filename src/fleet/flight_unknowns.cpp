@@ -13,7 +13,7 @@ namespace geoloc {
 namespace {
 
 constexpr int kDriftSize = 4;
-/// Of the drift between two parts, however near to each other: so much of its variance is new at least.
+/// The least share of the drift's variance that is new from one part to the next, however near they are.
 constexpr double kLeastInnovation = 1e-9;
 const double kLog2Pi = std::log(2.0 * kPi);
 
@@ -32,7 +32,7 @@ double correlation(const DriftCorrelation& drift, int component, double apart_s)
   }
 }
 
-/// Of the unknowns, by the errors of the part's model, of home's height, and of the unknowns alone.
+/// The unknowns' rows, by the errors of the part's model, of home's height, and of the unknowns alone.
 Eigen::MatrixXd rows_of(const FlightState& state, const FlightModel& model) {
   const Eigen::Index kept = model.unknowns() - 1;
   const Eigen::MatrixXd fewer = with_fewer_errors(state.shared_error, kept);

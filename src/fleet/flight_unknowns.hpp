@@ -37,7 +37,7 @@ class FlightUnknowns {
 
   const std::vector<OfPart>& parts() const { return parts_; }
 
-  /// Of all parts. nullopt where they leave no solution.
+  /// What all parts tell together; nullopt where they leave no solution.
   std::optional<Solution> solve();
 
  private:

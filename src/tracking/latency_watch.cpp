@@ -65,7 +65,7 @@ std::optional<double> LatencyWatch::observe(FrameStamp stamp, const std::vector<
   frames_[next_] = FrameBoxes(stamp, detections, kMostBoxes);
   next_ = (next_ + 1) % kFrames;
   size_ = std::min(size_ + 1, kFrames);
-  if (distance_of_pair(0, viewer.errors.calibration.latency_s(), viewer).looks == 0) return std::nullopt;
+  if (!makes_a_pair(viewer.errors.calibration.latency_s(), viewer)) return std::nullopt;
   ++pairs_;
   if (!is_due()) return std::nullopt;
   return search(viewer);
@@ -76,34 +76,57 @@ bool LatencyWatch::is_due() const {
   return std::find(kDue.begin(), kDue.end(), pairs_) != kDue.end();
 }
 
-LatencyWatch::Distance LatencyWatch::distance_of_pair(std::size_t age, double latency_s,
-                                                      const CalibratedViewer& viewer) const {
+/// Calls visit(pixel, scale) for each box of the frame before that is to be seen in the later one, at that
+/// pixel, until it returns false.
+template <typename Visit>
+void LatencyWatch::visit_pair(std::size_t age, double latency_s, const CalibratedViewer& viewer,
+                              const Visit& visit) const {
   const FrameBoxes& now = frame(age);
   const auto earlier = frames_to_compare(now.stamp.captured_at_host, size_ - 1 - age, [&](std::size_t n) {
     return frame(age + n).stamp.captured_at_host;
   });
-  if (!earlier) return {};
+  if (!earlier) return;
   const FrameBoxes& before = frame(age + *earlier);
   const Projector& projector = viewer.projector;
   const auto view_before = viewer.at(before.stamp, latency_s);
   const auto view_now = viewer.at(now.stamp, latency_s);
-  if (!view_before || !view_now) return {};
+  if (!view_before || !view_now) return;
   const double scale = viewer.image_scale();
-  const double most_px = kMostApart_px * scale;
+  const double margin_px = 2.0 * kMostApart_px * scale;
   const double ground_m = projector.config().ground_height_above_home_m;
-  Distance distance;
   for (std::size_t i = 0; i < before.count; ++i) {
     const auto place = projector.project(before.pixels[i], *view_before);
     if (!place) continue;
     const Eigen::Vector2d& on_ground = place->position_in_enu;
     const Eigen::Vector3d point(on_ground.x(), on_ground.y(), ground_m);
     const auto shown = projector.reproject(point, *view_now);
-    if (!shown || !is_well_inside(*shown, 2.0 * most_px, projector.camera().intrinsics())) continue;
+    if (!shown || !is_well_inside(*shown, margin_px, projector.camera().intrinsics())) continue;
+    if (!visit(*shown, scale)) return;
+  }
+}
+
+/// Whether the newest frame has one to be compared with.
+bool LatencyWatch::makes_a_pair(double latency_s, const CalibratedViewer& viewer) const {
+  bool is_pair = false;
+  visit_pair(0, latency_s, viewer, [&](const Eigen::Vector2d& /*shown*/, double /*scale*/) {
+    is_pair = true;
+    return false;
+  });
+  return is_pair;
+}
+
+LatencyWatch::Distance LatencyWatch::distance_of_pair(std::size_t age, double latency_s,
+                                                      const CalibratedViewer& viewer) const {
+  const FrameBoxes& now = frame(age);
+  Distance distance;
+  visit_pair(age, latency_s, viewer, [&](const Eigen::Vector2d& shown, double scale) {
+    const double most_px = kMostApart_px * scale;
     double nearest_px2 = most_px * most_px;
     for (std::size_t k = 0; k < now.count; ++k)
-      nearest_px2 = std::min(nearest_px2, (now.pixels[k] - *shown).squaredNorm());
+      nearest_px2 = std::min(nearest_px2, (now.pixels[k] - shown).squaredNorm());
     distance.add(nearest_px2 / (scale * scale));
-  }
+    return true;
+  });
   return distance;
 }
 

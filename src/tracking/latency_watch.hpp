@@ -65,6 +65,10 @@ class LatencyWatch {
 
   const FrameBoxes& frame(std::size_t age) const { return frames_[(next_ + kFrames - 1 - age) % kFrames]; }
   bool is_due() const;
+  template <typename Visit>
+  void visit_pair(std::size_t age, double latency_s, const CalibratedViewer& viewer,
+                  const Visit& visit) const;
+  bool makes_a_pair(double latency_s, const CalibratedViewer& viewer) const;
   Distance distance_of_pair(std::size_t age, double latency_s, const CalibratedViewer& viewer) const;
   std::size_t newest_known(double latency_s, const CalibratedViewer& viewer) const;
   Distance distance(double latency_s, const CalibratedViewer& viewer, std::size_t least_age = 0) const;

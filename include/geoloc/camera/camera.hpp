@@ -112,7 +112,7 @@ class CameraModel {
 
   const CameraIntrinsics& intrinsics() const { return intrinsics_; }
 
-  /// Of normalized undistorted coordinates: the distortion is monotonic up to here.
+  /// The squared radius, in normalized undistorted coordinates, up to which the distortion is monotonic.
   double max_radius_squared() const { return max_radius_squared_; }
 
  private:

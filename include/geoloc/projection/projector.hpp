@@ -88,7 +88,7 @@ class Projector {
   auto zoomed_as(const FrameView& view, const Ask& ask) const;
   Expected<PixelRay, NoFix> ray_of(const Eigen::Vector2d& pixel, const Rigid3d& enu_from_camera) const;
   Expected<double, NoFix> range_of_plane(const Ray<double>& ray) const;
-  /// Of a ray from that height that meets the plane at that range.
+  /// The reason why a ray from that height, which meets the plane at that range, has no fix.
   std::optional<NoFix> why_none(double camera_up_m, double direction_up, double range_m) const;
 
   ProjectorConfig config_;
